@@ -1,0 +1,74 @@
+#pragma once
+
+#include "dictionary/InputProblems.h"
+
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <string_view>
+#include <variant>
+#include <vector>
+
+namespace caisson {
+
+/// A token of an OpenFOAM-format file.
+struct Token
+{
+    enum class Kind { word, string, number, punctuation, verbatim, binary };
+    Kind kind = Kind::word;
+    std::string text;        ///< as written (strings without quotes; binary: the raw bytes)
+    double number = 0;       ///< value, for Kind::number
+    bool isInteger = false;  ///< Kind::number written without '.', 'e'
+    int line = 0;
+};
+
+class Dictionary;
+
+/// One entry: a keyword with either a stream of tokens or a sub-dictionary.
+struct Entry
+{
+    std::string keyword;
+    bool isPattern = false; ///< keyword was quoted: a POSIX extended regular expression
+    SourceLocation where;
+    std::vector<Token> tokens;
+    std::shared_ptr<Dictionary> dictionary; ///< set where the entry is `keyword { ... }`
+};
+
+/// A dictionary in OpenFOAM's format, macros and directives already expanded.
+///
+/// Lookup: exact keyword first, then patterns in reverse order of definition.
+class Dictionary
+{
+public:
+    [[nodiscard]] const Entry* find(std::string_view keyword) const; ///< nullptr where absent
+    /// `a.b.c` looked up through sub-dictionaries, the longest keyword first (keywords may hold dots).
+    [[nodiscard]] const Entry* findScoped(std::string_view path) const;
+    [[nodiscard]] const Dictionary* findDictionary(std::string_view keyword) const;
+    [[nodiscard]] const std::vector<Entry>& entries() const { return entries_; }
+    [[nodiscard]] const std::string& name() const { return name_; } ///< file, then ".sub.dictionary"
+    [[nodiscard]] const SourceLocation& where() const { return where_; }
+    /// Keywords that some macro of the same file referred to ($radius): they count as known keys.
+    [[nodiscard]] bool usedAsMacro(std::string_view keyword) const;
+    /// In the form in which `foamDictionary -expand` prints it.
+    [[nodiscard]] std::string print() const;
+
+private:
+    friend class DictionaryParser;
+    std::vector<Entry> entries_;
+    std::vector<std::string> macros_;
+    std::string name_;
+    SourceLocation where_;
+};
+
+/// Reads a file (or `file`.gz where `file` is missing) and expands macros and directives.
+/// @param displayName  how messages call the file; the path itself where empty
+/// @param caseDirectory  what <case>, <system>, $FOAM_CASE stand for
+/// @throws InputError with file and line
+Dictionary readDictionary(const std::filesystem::path& file, const std::filesystem::path& caseDirectory = {},
+                          std::string displayName = {});
+
+/// The same for text in memory.
+Dictionary parseDictionary(std::string_view text, std::string displayName = "text",
+                           const std::filesystem::path& caseDirectory = {});
+
+} // namespace caisson
