@@ -1,0 +1,35 @@
+#pragma once
+
+#include "constitutive/ConstitutiveLaw.h"
+
+namespace caisson {
+
+/// What a one-phase soil weighs: under water the liquid's own weight is carried by the hydrostatic pressure.
+enum class Weight { submerged, saturated, dry };
+
+/// A soil (or other solid) of constant/materialProperties.
+struct Material
+{
+    std::string name;
+    std::unique_ptr<ConstitutiveLaw> law;
+    double porosity = 0;      ///< [-]
+    double solidDensity = 0;  ///< of the grains [kg/m3]
+    double liquidDensity = 0; ///< [kg/m3]
+    Weight weight = Weight::submerged;
+
+    /// Mass that is accelerated per volume [kg/m3]: saturated (dry for Weight::dry).
+    [[nodiscard]] double inertialDensity() const;
+    /// Mass that gravity acts on per volume [kg/m3]: (1-n)(rho_s-rho_w), (1-n)rho_s + n rho_w, or (1-n)rho_s.
+    [[nodiscard]] double weighingDensity() const;
+};
+
+/// Reads constant/materialProperties: one sub-dictionary per material, its keys and those of its law flat in
+/// it: `sand { law mohrCoulomb; porosity 0.35; solidDensity 2650; liquidDensity 1000; weight submerged;
+/// youngsModulus 60e6; poissonsRatio 0.25; frictionAngle 38; dilatancyAngle 1; cohesion 0; }`
+/// @returns the materials in the order of the file
+std::vector<Material> readMaterials(const Dictionary& materialProperties, InputProblems& problems);
+
+/// Keywords of a material with law `type` (general ones and the law's), for reading and the user guide.
+std::vector<Keyword> materialKeywords(const std::string& type);
+
+} // namespace caisson
