@@ -1,0 +1,158 @@
+#include "bodies/BodySurface.h"
+
+#include "dictionary/Text.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <set>
+
+namespace caisson {
+
+namespace {
+
+/// Distance from a place to an edge of the body at its present level.
+double distance(const RigidBody& body, const ProfileEdge& edge, double r, double z)
+{
+    const double dr = edge.to[0] - edge.from[0];
+    const double dz = edge.to[1] - edge.from[1];
+    const double pr = r - edge.from[0];
+    const double pz = z - body.tipLevel - edge.from[1];
+    const double along = std::clamp((pr * dr + pz * dz) / (dr * dr + dz * dz), 0.0, 1.0);
+    return std::hypot(pr - along * dr, pz - along * dz);
+}
+
+} // namespace
+
+std::array<double, 2> pushOut(const RigidBody& body, double r, double z, double clearance)
+{
+    const ProfileEdge* nearest = nullptr;
+    double shortest = std::numeric_limits<double>::max();
+    for (const ProfileEdge& edge : body.profile) {
+        const double d = distance(body, edge, r, z);
+        if (d < shortest) {
+            shortest = d;
+            nearest = &edge;
+        }
+    }
+    return {r + nearest->normal[0] * (shortest + clearance), z + nearest->normal[1] * (shortest + clearance)};
+}
+
+BodySurface findBodySurface(const RigidBody& body, const BackgroundMesh& mesh, InputProblems& problems)
+{
+    BodySurface surface;
+    surface.voidCell.assign(mesh.cells(), 0);
+    for (int c = 0; c < mesh.cells(); ++c) {
+        double r = 0;
+        double z = 0;
+        for (int k = 0; k < mesh.corners; ++k) {
+            r += mesh.r[mesh.node(c, k)] / mesh.corners;
+            z += mesh.z[mesh.node(c, k)] / mesh.corners;
+        }
+        surface.voidCell[c] = body.contains(r, z);
+    }
+
+    // Surface nodes: void cells on one side, soil cells on the other. Each must lie on an edge of the profile.
+    std::vector<int> surfaceIndex(mesh.nodes(), -1);
+    for (int i = 0; i < mesh.nodes(); ++i) {
+        bool touchesVoid = false;
+        bool touchesSoil = false;
+        double size = std::numeric_limits<double>::max();
+        for (int k = mesh.nodeCells.start[i]; k < mesh.nodeCells.start[i + 1]; ++k) {
+            const int c = mesh.nodeCells.item[k] / mesh.corners;
+            (surface.voidCell[c] ? touchesVoid : touchesSoil) = true;
+            size = std::min(size, cellSize(mesh, c));
+        }
+        if (!touchesVoid || !touchesSoil) {
+            continue;
+        }
+        const double tolerance = 1e-4 * size;
+        SurfaceNode node{};
+        node.node = i;
+        node.faces = 0;
+        double nearest = std::numeric_limits<double>::max();
+        for (const ProfileEdge& edge : body.profile) {
+            const double d = distance(body, edge, mesh.r[i], mesh.z[i]);
+            nearest = std::min(nearest, d);
+            if (d < tolerance && node.faces < 2) {
+                // The same plane twice (a face given in two pieces) is one face.
+                if (node.faces == 1 && node.normal[0][0] * edge.normal[0] + node.normal[0][1] * edge.normal[1] > 0.999) {
+                    continue;
+                }
+                node.normal[node.faces] = edge.normal;
+                node.part[node.faces] = edge.part;
+                ++node.faces;
+            }
+        }
+        if (node.faces == 0) {
+            problems.add({}, text("body '%s': its surface cuts through the cells at r = %.6g m, z = %.6g m (%.3g m from the "
+                                  "nearest face)",
+                                  body.name.c_str(), mesh.r[i], mesh.z[i], nearest),
+                         "the mesh must have lines along the faces of the body: check radii, wall thickness and "
+                         "tipLevel against system/blockMeshDict");
+            return surface;
+        }
+        if (node.faces == 2 && node.part[1] == SurfacePart::tip) {
+            std::swap(node.normal[0], node.normal[1]);
+            std::swap(node.part[0], node.part[1]);
+        }
+        surfaceIndex[i] = static_cast<int>(surface.nodes.size());
+        surface.nodes.push_back(node);
+    }
+
+    // Areas, and the neighbourhood of the tip's corners, from the mesh edges at the surface nodes.
+    const bool axisymmetric = mesh.geometry == Geometry::axisymmetric;
+    std::set<std::pair<int, int>> seen;
+    for (int c = 0; c < mesh.cells(); ++c) {
+        if (surface.voidCell[c]) {
+            continue;
+        }
+        for (int k = 0; k < mesh.corners; ++k) {
+            const int a = mesh.node(c, k);
+            const int b = mesh.node(c, (k + 1) % mesh.corners);
+            const int across = mesh.neighbour[c * mesh.corners + k];
+            const bool onSurface = across >= 0 && surface.voidCell[across] != 0;
+            const double length = std::hypot(mesh.r[b] - mesh.r[a], mesh.z[b] - mesh.z[a]);
+            if (onSurface) {
+                // Normal into the soil: the cell lies to the left of a -> b, so it points to the left.
+                const std::array<double, 2> normal{-(mesh.z[b] - mesh.z[a]) / length, (mesh.r[b] - mesh.r[a]) / length};
+                for (const auto& [self, other] : {std::pair{a, b}, std::pair{b, a}}) {
+                    SurfaceNode& node = surface.nodes[surfaceIndex[self]];
+                    const double weight = axisymmetric ? (2 * mesh.r[self] + mesh.r[other]) / 6 : 0.5;
+                    for (int f = 0; f < node.faces; ++f) {
+                        if (node.normal[f][0] * normal[0] + node.normal[f][1] * normal[1] > 0.9) {
+                            node.area[f] += weight * length;
+                        }
+                    }
+                }
+            }
+            for (const auto& [self, other] : {std::pair{a, b}, std::pair{b, a}}) {
+                const int index = surfaceIndex[self];
+                if (index < 0 || surface.nodes[index].faces != 2 || surface.nodes[index].part[0] != SurfacePart::tip) {
+                    continue;
+                }
+                // The next node along the tip's level, away from the tip.
+                SurfaceNode& node = surface.nodes[index];
+                const double dr = mesh.r[other] - mesh.r[self];
+                const double dz = mesh.z[other] - mesh.z[self];
+                const bool away = dr * node.normal[1][0] + dz * node.normal[1][1] > 0;
+                if (!onSurface && away && std::abs(dr * node.normal[0][0] + dz * node.normal[0][1]) < 0.2 * length) {
+                    node.beside = other;
+                }
+            }
+        }
+    }
+    for (SurfaceNode& node : surface.nodes) {
+        if (node.beside < 0) {
+            continue;
+        }
+        const double besideLength =
+            std::hypot(mesh.r[node.beside] - mesh.r[node.node], mesh.z[node.beside] - mesh.z[node.node]);
+        const double r = mesh.r[node.node];
+        const double besideArea = axisymmetric ? (2 * r + mesh.r[node.beside]) / 6 * besideLength : besideLength / 2;
+        node.tipShare = node.area[0] / (node.area[0] + besideArea);
+    }
+    return surface;
+}
+
+} // namespace caisson

@@ -1,0 +1,74 @@
+#pragma once
+
+#include "bodies/BodySurface.h"
+#include "boundary/VelocityConditions.h"
+#include "constitutive/Material.h"
+#include "materialPoints/MaterialPoints.h"
+#include "mesh/MeshMotion.h"
+
+#include <limits>
+
+namespace caisson {
+
+/// Switches of system/mpmSolution.
+struct SolutionControls
+{
+    /// mixed: cells filled with soil are integrated with their own volume [Jassim, Stolle & Vermeer 2013],
+    /// the others at their points; points: all at their points.
+    enum class Integration { mixed, points };
+    /// Treatment of volumetric locking: mean dilatation of a quadrilateral [Hughes 1980], or volumetric strain
+    /// averaged at the nodes of triangles [Detournay & Dzik 2006].
+    enum class Locking { none, meanDilatation, nodalAverage };
+    /// Nodes whose velocity is mapped again from the points before strains are taken from it: none, those on
+    /// the free surface (small masses), or all [Sulsky, Zhou & Schreyer 1995].
+    enum class Remap { none, surface, all };
+
+    Integration integration = Integration::mixed;
+    Locking locking = Locking::meanDilatation;
+    Remap remap = Remap::surface;
+    double flipShare = 1;          ///< share of the FLIP velocity update per step [-]
+    double picTime = 0;            ///< time over which velocities relax to the PIC ones [s]; 0: never
+    double localDamping = 0;       ///< share of the out-of-balance force [-]
+    double linearBulkViscosity = 0;    ///< [-]
+    double quadraticBulkViscosity = 0; ///< [-]
+    double massScaling = 1;        ///< factor on the inertia of all soil [-]
+    double commonTimeStep = 0;     ///< step that cells are scaled up to [s]; 0: none
+    int sortInterval = 50;         ///< steps between physical sorts of the points
+};
+
+/// All that does not change while a case runs. Plain, validated data.
+struct Scene
+{
+    std::vector<Material> materials;
+    std::array<double, 2> gravity{0, 0}; ///< [m/s2]
+    VelocityConditions conditions;
+    MeshMotion motion;
+    int movingBody = -1; ///< index of the body that the mesh follows, or -1
+    std::vector<double> referenceZ; ///< node heights of constant/polyMesh [m]
+    SolutionControls controls;
+};
+
+/// What the soil did to a body: impulses on the body per part of its surface since they were last collected
+/// [N s/rad or N s/m], upward and away from the axis positive.
+struct BodyReaction
+{
+    std::array<double, surfaceParts> verticalImpulse{};
+    std::array<double, surfaceParts> radialImpulse{};
+    double work = 0; ///< done by the body on the soil since the start [J/rad or J/m]
+};
+
+/// Everything that changes with time, and nothing else that matters: writing it is a complete restart.
+struct State
+{
+    BackgroundMesh mesh;
+    MaterialPoints points;
+    std::vector<RigidBody> bodies;
+    std::vector<BodyReaction> reactions; ///< one per body
+    std::vector<unsigned char> filled;   ///< per cell: integrated as filled (has hysteresis)
+    std::vector<double> cellDivergence;  ///< per cell, rate [1/s]; kept for the bulk viscosity alone
+    double time = 0;
+    long step = 0;
+    double timeStep = 0; ///< of the last step [s]
+};
+
+} // namespace caisson

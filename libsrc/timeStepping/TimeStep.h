@@ -1,0 +1,55 @@
+#pragma once
+
+#include "timeStepping/Scene.h"
+
+#include <memory>
+#include <string>
+
+namespace caisson {
+
+/// Sums over the scene, for logs and checks. Per radian (axisymmetric) or per metre.
+struct Energies
+{
+    double kinetic = 0;       ///< of the soil with its true mass [J]
+    double kineticScaled = 0; ///< with scaled inertia [J]
+    double mass = 0, volume = 0;
+    std::array<double, 2> momentum{};
+};
+Energies sumEnergies(const Scene& scene, const State& state);
+
+/// What limits the time step.
+struct StableStep
+{
+    double step = 0; ///< [s]
+    int cell = -1;   ///< the cell that limits it
+    double waveSpeed = 0, size = 0; ///< there [m/s], [m]
+};
+
+/// Counts of cells by how they are treated now.
+struct CellCounts
+{
+    int filled = 0, partial = 0, empty = 0, inside = 0;
+};
+
+/// One explicit step of the whole scene; the only thing that changes a State.
+class TimeStep
+{
+public:
+    virtual ~TimeStep() = default;
+    virtual void advance(State& state, double dt) = 0;
+    /// Largest stable step [s] for the mesh and points as they are.
+    [[nodiscard]] virtual StableStep stableStep(const State& state) const = 0;
+    /// Rebuilds what is not state (order of the points, lists) from the state: at the start and after every
+    /// write, so that a restart sees the same.
+    virtual void rebuild(State& state) = 0;
+    [[nodiscard]] virtual CellCounts cellCounts() const = 0;
+    [[nodiscard]] virtual std::string description() const = 0; ///< of the kernel chosen, for the log
+    /// Largest |v| dt/h over the cells in the last step: the convective Courant number.
+    [[nodiscard]] virtual double convectiveCourant() const = 0;
+};
+
+/// Chooses the compiled kernel for a scene (geometry, kind of cells) and prepares the state.
+/// @throws InputError where bodies do not fit the mesh or points lie outside it
+std::unique_ptr<TimeStep> makeTimeStep(const Scene& scene, State& state);
+
+} // namespace caisson
