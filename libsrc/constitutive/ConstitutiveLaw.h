@@ -29,7 +29,8 @@ class ConstitutiveLaw
 public:
     virtual ~ConstitutiveLaw() = default;
     virtual void update(const StressBatch& batch) const = 0;
-    /// Names of the variables kept per point (also the names of the output fields), e.g. "plasticShearStrain".
+    /// Names of the variables kept per point (also the names of the output fields), e.g.
+    /// "plasticShearStrain".
     [[nodiscard]] virtual const std::vector<std::string>& stateNames() const = 0;
     /// Values that the variables start from.
     [[nodiscard]] virtual std::vector<double> initialState() const = 0;

@@ -16,6 +16,9 @@ struct Material
     double solidDensity = 0;  ///< of the grains [kg/m3]
     double liquidDensity = 0; ///< [kg/m3]
     Weight weight = Weight::submerged;
+    double intrinsicPermeability = 0; ///< [m2]; 0 where not given: a two-phase scene has to ask for it
+    double liquidBulkModulus = 0;     ///< [Pa]
+    double liquidViscosity = 0;       ///< dynamic [Pa s]
 
     /// Mass that is accelerated per volume [kg/m3]: saturated (dry for Weight::dry).
     [[nodiscard]] double inertialDensity() const;
@@ -26,10 +29,11 @@ struct Material
 /// Reads constant/materialProperties: one sub-dictionary per material, its keys and those of its law flat in
 /// it: `sand { law mohrCoulomb; porosity 0.35; solidDensity 2650; liquidDensity 1000; weight submerged;
 /// youngsModulus 60e6; poissonsRatio 0.25; frictionAngle 38; dilatancyAngle 1; cohesion 0; }`
-/// @returns the materials in the order of the file
+/// @returns the materials in the order of the file; one with a problem has an elastic law instead of none
 std::vector<Material> readMaterials(const Dictionary& materialProperties, InputProblems& problems);
 
 /// Keywords of a material with law `type` (general ones and the law's), for reading and the user guide.
+/// @throws std::out_of_range for an unknown type
 std::vector<Keyword> materialKeywords(const std::string& type);
 
 } // namespace caisson

@@ -1,0 +1,113 @@
+#pragma once
+
+#include "constitutive/IsotropicElasticity.h"
+
+#include <array>
+#include <cmath>
+
+namespace caisson {
+
+/// Strength and dilatancy; angles in radians.
+struct MohrCoulombStrength
+{
+    double frictionAngle = 0;  ///< [rad], in [0, pi/2)
+    double dilatancyAngle = 0; ///< [rad], at most the friction angle; negative: contractant
+    double cohesion = 0;       ///< [Pa], >= 0
+};
+
+/// Part of the yield surface that a stress was returned to; stresses in the order s1 >= s2 >= s3.
+enum class ReturnRegion { face, edgeS1S2, edgeS2S3, apex };
+
+/// Non-associated Mohr-Coulomb plasticity in principal stresses, tension positive.
+///
+/// Yield: f = (s1 - s3) + (s1 + s3) sin(phi) - 2 c cos(phi); potential: the same with psi for phi. The yield
+/// planes and the elasticity are linear, so the backward-Euler return has a closed form without iteration
+/// [Clausen, Damkilde & Andersen 2006, Eng. Comput. 23:15]: to the face; where that leaves the order of the
+/// stresses, to the edge between two faces; where that lies beyond the apex, to the apex c cot(phi).
+class MohrCoulombSurface
+{
+public:
+    using Principal = std::array<double, 3>;
+
+    struct Return
+    {
+        Principal stress; ///< s1 >= s2 >= s3 [Pa]
+        ReturnRegion region;
+        std::array<double, 2> multiplier; ///< plastic multipliers of the active faces; zero at the apex
+    };
+
+    MohrCoulombSurface(const IsotropicElasticity& elasticity, const MohrCoulombStrength& strength);
+
+    /// Yield function [Pa] from the largest and the smallest principal stress; elastic where <= 0.
+    [[nodiscard]] double yield(const double s1, const double s3) const
+    {
+        return slope1_ * s1 - slope3_ * s3 - strength_;
+    }
+
+    /// Yield function less what rounding may leave of it: a returned stress is not returned again.
+    [[nodiscard]] double excess(const double s1, const double s3) const
+    {
+        return yield(s1, s3) - 1e-13 * (std::abs(s1) + std::abs(s3));
+    }
+
+    /// Where the flow rule takes an elastic trial stress that is beyond yield.
+    /// @param trial  s1 >= s2 >= s3 [Pa], yield(s1, s3) > 0
+    [[nodiscard]] Return returned(const Principal& trial) const;
+
+    /// Whether every face and edge has one return. False only for strongly contractant flow at a Poisson's
+    /// ratio near 0.5.
+    [[nodiscard]] bool wellPosed() const;
+
+    [[nodiscard]] double apexStress() const { return apex_; } ///< c cot(phi) [Pa]; infinite where phi = 0
+
+private:
+    [[nodiscard]] double majorOnFace(const double s3) const { return slopeRatio_ * s3 + uniaxialTension_; }
+
+    double slope1_, slope3_;              // gradient of the yield function: (slope1, 0, -slope3)
+    double strength_;                     // 2 c cos(phi)
+    double slopeRatio_, uniaxialTension_; // slope3/slope1, strength/slope1
+    double apex_;
+    double flowMajor_, flowMiddle_, flowMinor_; // stress taken off by a unit multiplier of the face: D b
+    double face_, faceCompliance_;              // a13 . D b13 and its inverse
+    double edge12_;                             // a13 . D b23
+    double edge23_;                             // a13 . D b12
+};
+
+inline MohrCoulombSurface::Return MohrCoulombSurface::returned(const Principal& trial) const
+{
+    // The last stress of each region follows from the others by f = 0, which then holds to rounding of the
+    // result however far the trial stress was.
+    const double f13 = yield(trial[0], trial[2]);
+    const double multiplier = f13 * faceCompliance_;
+    const double s2 = trial[1] - multiplier * flowMiddle_;
+    const double s3 = trial[2] - multiplier * flowMinor_;
+    const double s1 = majorOnFace(s3);
+    if (s1 >= s2 && s2 >= s3)
+        return {{s1, s2, s3}, ReturnRegion::face, {multiplier, 0}};
+
+    if (s1 < s2) {
+        const double f23 = yield(trial[1], trial[2]);
+        const double determinant = face_ * face_ - edge12_ * edge12_;
+        const double first = (face_ * f13 - edge12_ * f23) / determinant;
+        const double second = (face_ * f23 - edge12_ * f13) / determinant;
+        const double minor = trial[2] - (first + second) * flowMinor_;
+        if (minor <= apex_) {
+            const double major = majorOnFace(minor);
+            return {{major, major, minor}, ReturnRegion::edgeS1S2, {first, second}};
+        }
+    }
+    if (s2 < s3) {
+        const double f12 = yield(trial[0], trial[1]);
+        const double determinant = face_ * face_ - edge23_ * edge23_;
+        const double first = (face_ * f13 - edge23_ * f12) / determinant;
+        const double second = (face_ * f12 - edge23_ * f13) / determinant;
+        const double major = trial[0] - (first + second) * flowMajor_;
+        if (major <= apex_) {
+            const double minor = (slope1_ * major - strength_) / slope3_;
+            return {{major, minor, minor}, ReturnRegion::edgeS2S3, {first, second}};
+        }
+    }
+    return {{apex_, apex_, apex_}, ReturnRegion::apex, {0, 0}};
+}
+
+} // namespace caisson
