@@ -199,9 +199,9 @@ void writeCloud(const fs::path& timeDirectory, const Cloud& cloud, const WriteSt
     }
 
     // Tells OpenFOAM's own tools to read `positions`, not `coordinates`.
-    write(timeDirectory, "uniform/" + folder, "dictionary", "cloudProperties",
-          "geometry        positions;\n\nprocessor0\n{\n    particleCount   " + std::to_string(size) + ";\n}",
-          {.binary = false, .compressed = false});
+    writeDictionaryFile(timeDirectory, "uniform/" + folder, "cloudProperties",
+                        "geometry        positions;\n\nprocessor0\n{\n    particleCount   " +
+                            std::to_string(size) + ";\n}");
 }
 
 Cloud readCloud(const fs::path& timeDirectory, std::string_view name)
@@ -372,6 +372,12 @@ NamedField readField(const fs::path& file, int size)
         field.values.insert(field.values.end(), uniform.begin(), uniform.end());
     }
     return field;
+}
+
+void writeDictionaryFile(const fs::path& timeDirectory, const std::string& subDirectory,
+                         const std::string& object, const std::string& body)
+{
+    write(timeDirectory, subDirectory, "dictionary", object, body, {.binary = false, .compressed = false});
 }
 
 void writePoints(const fs::path& timeDirectory, const std::vector<std::array<double, 3>>& points,

@@ -47,10 +47,15 @@ Cloud readCloud(const std::filesystem::path& timeDirectory, std::string_view nam
 /// Writes a pointScalarField/pointVectorField (atPoints) or volScalarField/... with one boundaryField entry
 /// per patch: `patchEntries[i] = {patch name, "type zeroGradient;"}`.
 void writeField(const std::filesystem::path& timeDirectory, const NamedField& field, bool atPoints,
-                std::string_view dimensions, const std::vector<std::pair<std::string, std::string>>& patchEntries,
+                std::string_view dimensions,
+                const std::vector<std::pair<std::string, std::string>>& patchEntries,
                 const WriteStyle& style);
 /// The internalField of a field file; `uniform` is spread over `size` items.
 NamedField readField(const std::filesystem::path& file, int size);
+
+/// `<timeDirectory>/<subDirectory>/<object>`, a dictionary with the entries `body`.
+void writeDictionaryFile(const std::filesystem::path& timeDirectory, const std::string& subDirectory,
+                         const std::string& object, const std::string& body);
 
 /// `<timeDirectory>/polyMesh/points`.
 void writePoints(const std::filesystem::path& timeDirectory, const std::vector<std::array<double, 3>>& points,

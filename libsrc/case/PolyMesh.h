@@ -36,6 +36,7 @@ struct PolyMesh
 /// Reads points, faces, owner, neighbour, boundary and, where present, cellZones; ascii or binary, .gz where
 /// the plain file is missing. `pointsFrom` (a time directory with polyMesh/points) replaces the points.
 /// @throws InputError naming the missing or broken file and the command that would make the mesh
-PolyMesh readPolyMesh(const std::filesystem::path& caseDirectory, const std::filesystem::path& pointsFrom = {});
+PolyMesh readPolyMesh(const std::filesystem::path& caseDirectory,
+                      const std::filesystem::path& pointsFrom = {});
 
 } // namespace caisson
