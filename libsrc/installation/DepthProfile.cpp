@@ -20,16 +20,24 @@ DepthProfile::DepthProfile(std::vector<double> depth, std::vector<double> value)
                             0.5 * (value_[i] + value_[i - 1]) * (depth_[i] - depth_[i - 1]));
 }
 
+double DepthProfile::between(const std::size_t next, const double z) const
+{
+    if (next == 0)
+        return value_.front();
+    if (next == depth_.size())
+        return value_.back();
+    const double share = (z - depth_[next - 1]) / (depth_[next] - depth_[next - 1]);
+    return value_[next - 1] + share * (value_[next] - value_[next - 1]);
+}
+
 double DepthProfile::value(const double z) const
 {
-    const auto above = std::upper_bound(depth_.begin(), depth_.end(), z);
-    if (above == depth_.begin())
-        return value_.front();
-    if (above == depth_.end())
-        return value_.back();
-    const auto i = static_cast<std::size_t>(above - depth_.begin());
-    const double share = (z - depth_[i - 1]) / (depth_[i] - depth_[i - 1]);
-    return value_[i - 1] + share * (value_[i] - value_[i - 1]);
+    return between(static_cast<std::size_t>(std::ranges::upper_bound(depth_, z) - depth_.begin()), z);
+}
+
+double DepthProfile::valueAbove(const double z) const
+{
+    return between(static_cast<std::size_t>(std::ranges::lower_bound(depth_, z) - depth_.begin()), z);
 }
 
 double DepthProfile::integral(const double z) const

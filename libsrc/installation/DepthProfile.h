@@ -14,12 +14,16 @@ public:
     ///   increase (a depth given twice is a step)
     DepthProfile(std::vector<double> depth, std::vector<double> value);
 
-    [[nodiscard]] double value(double z) const;
-    [[nodiscard]] double integral(double z) const; ///< from 0 to z
+    [[nodiscard]] double value(double z) const;      ///< at a step: the value below it
+    [[nodiscard]] double valueAbove(double z) const; ///< at a step: the value above it
+    [[nodiscard]] double integral(double z) const;   ///< from 0 to z
     [[nodiscard]] double deepest() const { return depth_.back(); }
+    [[nodiscard]] std::span<const double> depths() const { return depth_; }
     [[nodiscard]] std::span<const double> values() const { return value_; }
 
 private:
+    [[nodiscard]] double between(std::size_t next, double z) const; // linear up to the point `next`
+
     std::vector<double> depth_;
     std::vector<double> value_;
     std::vector<double> integral_; // from 0 to each depth

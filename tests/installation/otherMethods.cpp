@@ -134,6 +134,9 @@ TEST(DepthProfile, interpolatesAndIntegratesWithStepsAndEnds)
     EXPECT_EQ(profile.value(0), 3);
     EXPECT_EQ(profile.value(1.5), 4);
     EXPECT_EQ(profile.value(2), 1);
+    EXPECT_EQ(profile.valueAbove(2), 5);
+    EXPECT_EQ(profile.valueAbove(1), 3);
+    EXPECT_EQ(profile.valueAbove(3), 1.5);
     EXPECT_EQ(profile.value(3), 1.5);
     EXPECT_EQ(profile.value(9), 2);
     EXPECT_EQ(profile.integral(0.5), 1.5);
