@@ -86,9 +86,13 @@ std::string header(std::string_view className, const std::string& location, std:
 void appendNumber(std::string& text, double value, int precision)
 {
     std::array<char, 64> digits;
-    const auto [end, error] = std::to_chars(digits.data(), digits.data() + digits.size(), value,
-                                            std::chars_format::general, std::clamp(precision, 1, 17));
+    // 17 digits always carry a double; the shortest text that comes back as the same bits does as well.
+    char* const last = digits.data() + digits.size();
+    const auto [end, error] =
+        precision >= 17 ? std::to_chars(digits.data(), last, value)
+                        : std::to_chars(digits.data(), last, value, std::chars_format::general, precision);
     assert(error == std::errc{});
+    (void)error;
     text.append(digits.data(), end);
 }
 

@@ -14,7 +14,8 @@ namespace caisson {
 struct WriteStyle
 {
     bool binary = true;
-    int precision = 17; ///< digits of ascii numbers; 17 carries a double exactly
+    int precision =
+        17; ///< digits of ascii numbers; 17 (or the fewest that do the same) carry a double exactly
     bool compressed = false;
 };
 
