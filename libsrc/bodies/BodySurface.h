@@ -31,7 +31,8 @@ struct SurfaceNode
 /// down is not that of the tip. `shared` centres the velocity jump between tip and neighbouring soil on the
 /// corner: the node takes at least w V + (1 - w) v_beside downward, w the share of its hat function under the
 /// tip and v_beside the soil's velocity at the next node, so that the swept volume is the tip's own at any
-/// cell size. `rounded` lets the soil slip along the bisector of the two faces.
+/// cell size. `rounded` (the default) lets the soil slip along the surface of a tip rounded over that cell: the
+/// normal is the integral of N n over both faces.
 struct BodySurface
 {
     std::vector<SurfaceNode> nodes;

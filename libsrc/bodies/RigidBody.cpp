@@ -99,7 +99,7 @@ constexpr Keyword commonKeywords[] = {
     {"surfaceLevel", "m", "0", "(-inf, inf)", "z that penetration is measured from"},
     {"friction", "-", "0", "[0, inf)", "friction coefficient mu = tan(delta) of the interface"},
     {"adhesion", "Pa", "0", "[0, inf)", "adhesion of the interface"},
-    {"tipCorner", "word", "shared", "full shared rounded", "treatment of the corner nodes of the tip"},
+    {"tipCorner", "word", "rounded", "full shared rounded", "treatment of the corner nodes of the tip"},
     {"penetrationRate", "Function1", "-", "", "downward velocity [m/s]; the body is at rest without it"},
     {"variable", "word", "time", "time penetration", "what penetrationRate is a function of [s or m]"},
     {"ramp", "s", "0.05", "[0, inf)", "time over which the rate rises from rest"},
@@ -154,9 +154,9 @@ std::vector<RigidBody> readBodies(const Dictionary& bodies, InputProblems& probl
         body.friction = reader.number("friction");
         body.adhesion = reader.number("adhesion");
         const std::string corner = reader.word("tipCorner");
-        body.tipCorner = corner == "full"      ? TipCorner::full
-                         : corner == "rounded" ? TipCorner::rounded
-                                               : TipCorner::shared;
+        body.tipCorner = corner == "full"     ? TipCorner::full
+                         : corner == "shared" ? TipCorner::shared
+                                              : TipCorner::rounded;
         body.variable = reader.word("variable") == "penetration" ? RigidBody::Variable::penetration
                                                                  : RigidBody::Variable::time;
         body.ramp = reader.number("ramp");

@@ -38,7 +38,7 @@ struct RigidBody
 
     double friction = 0; ///< coefficient of the interface [-]
     double adhesion = 0; ///< [Pa]
-    TipCorner tipCorner = TipCorner::shared;
+    TipCorner tipCorner = TipCorner::rounded;
 
     enum class Variable { time, penetration };
     Variable variable = Variable::time;

@@ -6,8 +6,8 @@
 #include <array>
 #include <cmath>
 
-/// Shapes of background cells as the step kernels see them: shape functions at a place, the mean-dilatation
-/// operator, and the forces of a stress that varies linearly over a filled cell. The weight of the volume
+/// Shapes of background cells as the step kernels see them: shape functions at a place, and the moments of the
+/// strain operator over a filled cell. The weight of the volume
 /// integral is r (axisymmetric, per radian) or 1 (plane strain).
 namespace caisson::shapes {
 
@@ -20,7 +20,7 @@ struct Values
     double dz[corners]; ///< dN/dz
 };
 
-/// What the kernels need of every cell, whatever its shape.
+/// Mean over a cell of the dilatation operator.
 template <int corners>
 struct MeanDilatation
 {
@@ -29,13 +29,23 @@ struct MeanDilatation
     double bz[corners]; ///< mean of dN/dz
 };
 
-/// Stress over a filled cell: sigma(xi, eta) = mean + xi slopeXi + eta slopeEta, xi and eta the cell's local
-/// coordinates in [-1, 1]; components rr, zz, tt, rz.
-struct LinearStress
+/// Volume moments of the strain operator over a filled cell: index 0 the mean, 1 and 2 the means weighted with
+/// xi - xiCentre and eta - etaCentre (local coordinates in [-1, 1], less their volume means). A stress field
+/// mean + slopeXi (xi - xiCentre) + slopeEta (eta - etaCentre) has the forces
+///   f_r = volume sum_m (s_rr gr + s_rz gz + s_tt h),   f_z = volume sum_m (s_zz gz + s_rz gr),
+/// and the mean and slopes of the strain follow from the same coefficients (divided by the moments of inertia
+/// for the slopes): stress and strain are adjoint, so elastic stiffness is symmetric and no mode can gain energy.
+template <int corners>
+struct Moments
 {
-    double mean[4];
-    double slopeXi[4];
-    double slopeEta[4];
+    static constexpr int count = corners == 4 ? 3 : 1;
+    double volume;
+    double xiCentre = 0;
+    double inertiaXi = 1, inertiaEta = 1;
+    double n[corners];         ///< mean of N
+    double gr[count][corners]; ///< of dN/dr
+    double gz[count][corners]; ///< of dN/dz
+    double h[count][corners];  ///< of N/r (axisymmetric), 0 in plane strain
 };
 
 /// Axis-parallel rectangle, corner 0 lower left, counter-clockwise. All integrals in closed form.
@@ -43,7 +53,6 @@ template <bool axisymmetric>
 struct Rectangle
 {
     static constexpr int corners = 4;
-    static constexpr bool linearStress = true;
 
     struct Cell
     {
@@ -121,46 +130,44 @@ struct Rectangle
         return m;
     }
 
-    /// Volume average of (mean, slopes): the weight r shifts it.
-    static double average(const Cell& c, double mean, double slopeXi, double /*slopeEta*/)
-    {
-        if constexpr (axisymmetric) {
-            return mean + slopeXi * c.dr / (6 * (c.r0 + 0.5 * c.dr));
-        } else {
-            return mean;
-        }
-    }
+    /// dz/dxi and dz/deta.
+    static std::array<double, 2> heightSlopes(const Cell& c) { return {0, 0.5 * c.dz}; }
 
-    /// force[k] = integral of B_k^T sigma over the cell.
-    static void force(const Cell& c, const LinearStress& s, double (&fr)[4], double (&fz)[4])
+    static Moments<4> moments(const Cell& c)
     {
-        const double area = c.dr * c.dz;
-        const double rc = axisymmetric ? c.r0 + 0.5 * c.dr : 1.0;
-        const double spread = axisymmetric ? c.dr / 6 : 0.0; // mean of r xi
-        // means over the cell of the weight times the radial hats, and the same times xi
-        const double hatLeft = axisymmetric ? (3 * c.r0 + c.dr) / 6 : 0.5;
-        const double hatRight = axisymmetric ? (3 * c.r0 + 2 * c.dr) / 6 : 0.5;
-        const double hatXiLeft = axisymmetric ? -c.r0 / 6 : -1.0 / 6;
-        const double hatXiRight = axisymmetric ? (c.r0 + c.dr) / 6 : 1.0 / 6;
+        Moments<4> m;
+        const double rc = axisymmetric ? c.r0 + 0.5 * c.dr : 1.0; // mean weight
+        m.volume = c.dr * c.dz * rc;
+        // All below are means over xi, eta of (.) times the weight, divided by the mean weight.
+        const double inverse = 1 / rc;
+        const double xiMean = axisymmetric ? c.dr / 6 * inverse : 0.0;
+        m.xiCentre = xiMean;
+        m.inertiaXi = 1.0 / 3 - xiMean * xiMean;
+        m.inertiaEta = 1.0 / 3;
+        const double hat[2] = {axisymmetric ? (3 * c.r0 + c.dr) / 6 * inverse : 0.5,
+                               axisymmetric ? (3 * c.r0 + 2 * c.dr) / 6 * inverse : 0.5};
+        const double hatXi[2] = {axisymmetric ? -c.r0 / 6 * inverse : -1.0 / 6,
+                                 axisymmetric ? (c.r0 + c.dr) / 6 * inverse : 1.0 / 6};
         for (int k = 0; k < 4; ++k) {
-            const bool right = k == 1 || k == 2;
+            const int right = k == 1 || k == 2;
             const double sr = right ? 1 : -1;
             const double sz = k >= 2 ? 1 : -1;
-            const double hat = right ? hatRight : hatLeft;
-            const double hatXi = right ? hatXiRight : hatXiLeft;
-            const auto byGradientR = [&](int i) { // mean of sigma_i dN/dr w
-                return sr * c.invDr *
-                       (0.5 * (s.mean[i] * rc + s.slopeXi[i] * spread) + sz * s.slopeEta[i] * rc / 6);
-            };
-            const auto byGradientZ = [&](int i) { // mean of sigma_i dN/dz w
-                return sz * c.invDz * (s.mean[i] * hat + s.slopeXi[i] * hatXi);
-            };
-            fr[k] = area * (byGradientR(0) + byGradientZ(3));
-            fz[k] = area * (byGradientZ(1) + byGradientR(3));
+            m.n[k] = 0.5 * hat[right];
+            m.gr[0][k] = 0.5 * sr * c.invDr;
+            m.gr[1][k] = 0; // dN/dr does not vary with xi, and xi - xiCentre has no mean
+            m.gr[2][k] = sr * sz * c.invDr / 6;
+            m.gz[0][k] = sz * c.invDz * hat[right];
+            m.gz[1][k] = sz * c.invDz * (hatXi[right] - xiMean * hat[right]);
+            m.gz[2][k] = 0;
             if constexpr (axisymmetric) {
-                fr[k] += area * (0.25 * s.mean[2] + (sr * s.slopeXi[2] + sz * s.slopeEta[2]) / 12);
+                m.h[0][k] = 0.25 * inverse;
+                m.h[1][k] = (sr / 12 - 0.25 * xiMean) * inverse;
+                m.h[2][k] = sz / 12 * inverse;
+            } else {
+                m.h[0][k] = m.h[1][k] = m.h[2][k] = 0;
             }
         }
+        return m;
     }
 
     /// Extent used for the stable step [m].
@@ -172,7 +179,6 @@ template <bool axisymmetric>
 struct Quadrilateral
 {
     static constexpr int corners = 4;
-    static constexpr bool linearStress = true;
 
     struct Cell
     {
@@ -288,31 +294,41 @@ struct Quadrilateral
         return m;
     }
 
-    static double average(const Cell& c, double mean, double slopeXi, double slopeEta)
+    static std::array<double, 2> heightSlopes(const Cell& c)
     {
-        double sum = 0;
-        double volume = 0;
-        atGaussPoints(c, [&](double xi, double eta, double weight, const Values<4>&, double) {
-            sum += weight * (mean + xi * slopeXi + eta * slopeEta);
-            volume += weight;
-        });
-        return sum / volume;
+        return {0.25 * (c.z[1] + c.z[2] - c.z[0] - c.z[3]), 0.25 * (c.z[2] + c.z[3] - c.z[0] - c.z[1])};
     }
 
-    static void force(const Cell& c, const LinearStress& s, double (&fr)[4], double (&fz)[4])
+    static Moments<4> moments(const Cell& c)
     {
-        std::fill_n(fr, 4, 0.0);
-        std::fill_n(fz, 4, 0.0);
+        Moments<4> m{};
+        double etaCentre = 0;
+        m.volume = 0;
+        atGaussPoints(c, [&](double xi, double eta, double weight, const Values<4>&, double) {
+            m.volume += weight;
+            m.xiCentre += weight * xi;
+            etaCentre += weight * eta;
+        });
+        m.xiCentre /= m.volume;
+        etaCentre /= m.volume;
+        m.inertiaXi = m.inertiaEta = 0;
         atGaussPoints(c, [&](double xi, double eta, double weight, const Values<4>& v, double r) {
-            double sigma[4];
-            for (int i = 0; i < 4; ++i) {
-                sigma[i] = weight * (s.mean[i] + xi * s.slopeXi[i] + eta * s.slopeEta[i]);
-            }
+            const double share = weight / m.volume;
+            const double moment[3] = {share, share * (xi - m.xiCentre), share * (eta - etaCentre)};
+            m.inertiaXi += moment[1] * (xi - m.xiCentre);
+            m.inertiaEta += moment[2] * (eta - etaCentre);
             for (int k = 0; k < 4; ++k) {
-                fr[k] += sigma[0] * v.dr[k] + sigma[3] * v.dz[k] + (axisymmetric ? sigma[2] * v.N[k] / r : 0);
-                fz[k] += sigma[1] * v.dz[k] + sigma[3] * v.dr[k];
+                m.n[k] += share * v.N[k];
+            }
+            for (int i = 0; i < 3; ++i) {
+                for (int k = 0; k < 4; ++k) {
+                    m.gr[i][k] += moment[i] * v.dr[k];
+                    m.gz[i][k] += moment[i] * v.dz[k];
+                    m.h[i][k] += axisymmetric ? moment[i] * v.N[k] / r : 0;
+                }
             }
         });
+        return m;
     }
 
     static double size(const Cell& c)
@@ -332,7 +348,6 @@ template <bool axisymmetric>
 struct Triangle
 {
     static constexpr int corners = 3;
-    static constexpr bool linearStress = false;
 
     struct Cell
     {
@@ -389,19 +404,18 @@ struct Triangle
         return m;
     }
 
-    static double average(const Cell&, double mean, double, double) { return mean; }
-
-    static void force(const Cell& c, const LinearStress& s, double (&fr)[3], double (&fz)[3])
+    static Moments<3> moments(const Cell& c)
     {
+        Moments<3> m;
         const double centroid = (c.r[0] + c.r[1] + c.r[2]) / 3;
-        const double volume = c.area * (axisymmetric ? centroid : 1);
+        m.volume = c.area * (axisymmetric ? centroid : 1);
         for (int k = 0; k < 3; ++k) {
-            fr[k] = volume * (s.mean[0] * c.dr[k] + s.mean[3] * c.dz[k]);
-            fz[k] = volume * (s.mean[1] * c.dz[k] + s.mean[3] * c.dr[k]);
-            if constexpr (axisymmetric) {
-                fr[k] += s.mean[2] * c.area / 3;
-            }
+            m.n[k] = axisymmetric ? (3 * centroid + c.r[k]) / (12 * centroid) : 1.0 / 3;
+            m.gr[0][k] = c.dr[k];
+            m.gz[0][k] = c.dz[k];
+            m.h[0][k] = axisymmetric ? 1 / (3 * centroid) : 0; // integral of N is A/3
         }
+        return m;
     }
 
     static double size(const Cell& c)

@@ -12,6 +12,15 @@ namespace {
 /// Shape functions are evaluated a hair inside, so that a point on the axis has a hoop strain.
 constexpr double smallestRadius = 1e-12;
 
+/// A cell away from any surface is integrated as filled from this share of its volume on. Rows of regularly
+/// spaced points cross a mesh line together: with two rows per cell the share of a full cell swings between a
+/// half and one and a half, so a threshold near one would switch whole rows of cells at every crossing.
+constexpr double leastFill = 0.25;
+constexpr double fillHysteresis = 0.1;
+
+/// A node with less than this share of the mass of evenly filled cells is loose.
+constexpr double looseShare = 0.6;
+
 /// Corner 0 of an axis-parallel rectangle is to be the lower left one.
 int firstCorner(const BackgroundMesh& mesh, int cell)
 {
@@ -72,8 +81,11 @@ OnePhaseStep<Shape>::OnePhaseStep(const Scene& scene, State& state, bool axisymm
     cells_.resize(cells);
     dilatation_.resize(cells);
     inertiaScale_.assign(cells, scene.controls.massScaling);
+    fullness_.assign(cells, 1);
     cornerSums_.resize(cells * corners);
     nodes_.resize(mesh.nodes());
+    looseNode_.resize(mesh.nodes());
+    byLoose_.resize(cells);
     traction_.resize(mesh.nodes());
     cellRate_.assign(cells, 0);
     nodeRate_.assign(mesh.nodes(), 0);
@@ -157,21 +169,17 @@ void OnePhaseStep<Shape>::classifyCells(State& state)
             }
         }
     }
-    if (scene_.controls.integration == SolutionControls::Integration::points) {
-        std::ranges::fill(state.filled, 0);
-        return;
-    }
+    const bool mixed = scene_.controls.integration == SolutionControls::Integration::mixed;
     for (const int c : activeCells_) {
-        if (bySurface_[c]) {
-            state.filled[c] = 0;
-            continue;
+        bool filled = mixed && !bySurface_[c];
+        if (filled) {
+            double volume = 0;
+            for (const int* p = pointCells_.begin(c); p != pointCells_.end(c); ++p) {
+                volume += state.points.volume[*p];
+            }
+            filled = volume > (state.filled[c] ? leastFill : leastFill + fillHysteresis) * dilatation_[c].volume;
         }
-        double volume = 0;
-        for (const int* p = pointCells_.begin(c); p != pointCells_.end(c); ++p) {
-            volume += state.points.volume[*p];
-        }
-        const double share = volume / dilatation_[c].volume;
-        state.filled[c] = share >= (state.filled[c] ? 0.85 : 0.95);
+        state.filled[c] = filled;
     }
 }
 
@@ -245,7 +253,7 @@ std::string OnePhaseStep<Shape>::description() const
     const SolutionControls& controls = scene_.controls;
     std::string words = "one-phase, ";
     words += axisymmetric_ ? "axisymmetric" : "plane strain";
-    words += corners == 3 ? ", triangles" : Shape::linearStress ? ", quadrilaterals" : "";
+    words += corners == 3 ? ", triangles" : ", quadrilaterals";
     words += controls.integration == SolutionControls::Integration::mixed ? ", mixed integration" : ", points";
     words += controls.locking == SolutionControls::Locking::none             ? ""
              : controls.locking == SolutionControls::Locking::meanDilatation ? ", mean dilatation"
@@ -295,6 +303,7 @@ void OnePhaseStep<Shape>::mapCellToNodes(State& state, int c)
         }
     }
 
+    const shapes::Moments<corners> m = Shape::moments(cell);
     double mass[corners] = {};
     double momentumR[corners] = {};
     double momentumZ[corners] = {};
@@ -318,7 +327,7 @@ void OnePhaseStep<Shape>::mapCellToNodes(State& state, int c)
     };
 
     if (state.filled[c]) {
-        // The points' stresses as a linear field over the cell, by least squares weighted with volume.
+        // The points' stresses as mean and slopes over the cell, weighted with volume.
         double w = 0, wx = 0, wy = 0, wxx = 0, wyy = 0, wxy = 0;
         double s[4] = {}, sx[4] = {}, sy[4] = {};
         for (const int* i = first; i != last; ++i) {
@@ -327,7 +336,7 @@ void OnePhaseStep<Shape>::mapCellToNodes(State& state, int c)
             addInertiaAndWeight(p);
             const double v = points.volume[p];
             w += v;
-            if constexpr (Shape::linearStress) {
+            if constexpr (corners == 4) {
                 const auto [x, y] = Shape::local(cell, points.r[p], points.z[p]);
                 wx += v * x;
                 wy += v * y;
@@ -346,54 +355,65 @@ void OnePhaseStep<Shape>::mapCellToNodes(State& state, int c)
                 }
             }
         }
-        shapes::LinearStress stress{};
         const double inverse = 1 / w;
-        if constexpr (Shape::linearStress) {
+        fullness_[c] = m.volume * inverse;
+        for (int k = 0; k < corners; ++k) {
+            forceR[k] *= fullness_[c];
+            forceZ[k] *= fullness_[c];
+        }
+        double stress[4]; // mean
+        for (int j = 0; j < 4; ++j) {
+            stress[j] = s[j] * inverse + (j < 3 ? viscousStress : 0);
+        }
+        const auto addForces = [&](int moment, const double (&sigma)[4]) {
+            for (int k = 0; k < corners; ++k) {
+                forceR[k] -= m.volume * (sigma[0] * m.gr[moment][k] + sigma[3] * m.gz[moment][k] +
+                                         sigma[2] * m.h[moment][k]);
+                forceZ[k] -= m.volume * (sigma[1] * m.gz[moment][k] + sigma[3] * m.gr[moment][k]);
+            }
+        };
+        if constexpr (corners == 4) {
+            // What varies over a cell at rest is known from its weight, wherever the points are: only the rest
+            // is taken from them.
+            const int material = points.material[*first];
+            const auto [riseXi, riseEta] = Shape::heightSlopes(cell);
+            const double weight = -scene_.gravity[1] * gravityShare_[material] * density_[material];
+            const double ratio = stress[1] < 0 ? std::clamp(stress[0] / stress[1], 0.0, 1.0) : 0.0;
+            const double known[4] = {ratio * weight, weight, ratio * weight, 0};
             const double x = wx * inverse;
             const double y = wy * inverse;
-            // Spread of the points; a floor keeps slopes from being extrapolated out of a cluster.
-            constexpr double leastSpread = 0.1;
-            const double spreadX = std::max(wxx * inverse - x * x, leastSpread);
-            const double spreadY = std::max(wyy * inverse - y * y, leastSpread);
-            const double cross = wxy * inverse - x * y;
-            const double determinant = std::max(spreadX * spreadY - cross * cross, 0.2 * spreadX * spreadY);
+            // The ridge keeps slopes from being extrapolated out of a cluster of points.
+            constexpr double ridge = 0.02;
+            const double xx = wxx * inverse - x * x;
+            const double yy = wyy * inverse - y * y;
+            const double xy = wxy * inverse - x * y;
+            const double determinant = (xx + ridge) * (yy + ridge) - xy * xy;
+            double slopeXi[4];
+            double slopeEta[4];
             for (int j = 0; j < 4; ++j) {
+                const double knownXi = known[j] * riseXi;
+                const double knownEta = known[j] * riseEta;
                 const double mean = s[j] * inverse;
-                const double covarianceX = sx[j] * inverse - x * mean;
-                const double covarianceY = sy[j] * inverse - y * mean;
-                stress.slopeXi[j] = (covarianceX * spreadY - covarianceY * cross) / determinant;
-                stress.slopeEta[j] = (covarianceY * spreadX - covarianceX * cross) / determinant;
-                stress.mean[j] = mean - stress.slopeXi[j] * x - stress.slopeEta[j] * y;
+                const double cx = sx[j] * inverse - x * mean - knownXi * xx - knownEta * xy;
+                const double cy = sy[j] * inverse - y * mean - knownXi * xy - knownEta * yy;
+                slopeXi[j] = (cx * (yy + ridge) - cy * xy) / determinant + knownXi;
+                slopeEta[j] = (cy * (xx + ridge) - cx * xy) / determinant + knownEta;
+                stress[j] -= knownXi * x + knownEta * y;
             }
-        } else {
-            for (int j = 0; j < 4; ++j) {
-                stress.mean[j] = s[j] * inverse;
+            if (meanDilatation) { // the mean stress works on the mean dilatation alone
+                const double dx = (slopeXi[0] + slopeXi[1] + slopeXi[2]) / 3;
+                const double dy = (slopeEta[0] + slopeEta[1] + slopeEta[2]) / 3;
+                for (int j = 0; j < 3; ++j) {
+                    slopeXi[j] -= dx;
+                    slopeEta[j] -= dy;
+                }
             }
+            addForces(1, slopeXi);
+            addForces(2, slopeEta);
         }
-        for (int j = 0; j < 3; ++j) {
-            stress.mean[j] += viscousStress;
-        }
-        double pressureVolume = 0;
-        if (meanDilatation) {
-            // Only the deviator works on the local strain; the mean stress works on the cell's dilatation.
-            const double mean = (stress.mean[0] + stress.mean[1] + stress.mean[2]) / 3;
-            const double slopeXi = (stress.slopeXi[0] + stress.slopeXi[1] + stress.slopeXi[2]) / 3;
-            const double slopeEta = (stress.slopeEta[0] + stress.slopeEta[1] + stress.slopeEta[2]) / 3;
-            for (int j = 0; j < 3; ++j) {
-                stress.mean[j] -= mean;
-                stress.slopeXi[j] -= slopeXi;
-                stress.slopeEta[j] -= slopeEta;
-            }
-            pressureVolume = dilatation_[c].volume * Shape::average(cell, mean, slopeXi, slopeEta);
-        }
-        double internalR[corners];
-        double internalZ[corners];
-        Shape::force(cell, stress, internalR, internalZ);
-        for (int k = 0; k < corners; ++k) {
-            forceR[k] -= internalR[k] + pressureVolume * dilatation_[c].br[k];
-            forceZ[k] -= internalZ[k] + pressureVolume * dilatation_[c].bz[k];
-        }
+        addForces(0, stress);
     } else {
+        fullness_[c] = 1;
         double br[corners] = {};
         double bz[corners] = {};
         double volume = 0;
@@ -434,10 +454,12 @@ void OnePhaseStep<Shape>::mapCellToNodes(State& state, int c)
         }
     }
 
-    const double inertia = inertiaScale_[c];
+    const double inertia = inertiaScale_[c] * fullness_[c];
+    const double fullMass = inertiaScale_[c] * density_[points.material[*first]] * m.volume;
     Corner* const out = &cornerSums_[c * corners];
     for (int k = 0; k < corners; ++k) {
-        out[k] = {inertia * mass[k], inertia * momentumR[k], inertia * momentumZ[k], forceR[k], forceZ[k]};
+        out[k] = {inertia * mass[k], inertia * momentumR[k], inertia * momentumZ[k],
+                  forceR[k],         forceZ[k],              fullMass * m.n[k]};
     }
 }
 
@@ -467,9 +489,11 @@ void OnePhaseStep<Shape>::solveNodes(State& state, double dt)
             sum.momentumZ += corner.momentumZ;
             sum.forceR += corner.forceR;
             sum.forceZ += corner.forceZ;
+            sum.fullMass += corner.fullMass;
         }
         Node& node = nodes_[i];
         node.mass = sum.mass;
+        looseNode_[i] = surfaceNode_[i] != 0 || sum.mass < looseShare * sum.fullMass;
         if (sum.mass <= 0) {
             node = Node{};
             continue;
@@ -584,8 +608,11 @@ void OnePhaseStep<Shape>::applyContact(State& state, double dt, bool remapped)
                     touch(contact.normal[f], contact.part[f], body.velocity, contact.area[f]);
                 }
             } else if (body.tipCorner == TipCorner::rounded) {
-                std::array<double, 2> n{contact.normal[0][0] + contact.normal[1][0],
-                                        contact.normal[0][1] + contact.normal[1][1]};
+                std::array<double, 2> n{};
+                for (int f = 0; f < 2; ++f) {
+                    n[0] += contact.area[f] * contact.normal[f][0];
+                    n[1] += contact.area[f] * contact.normal[f][1];
+                }
                 const double length = std::hypot(n[0], n[1]);
                 n = {n[0] / length, n[1] / length};
                 touch(n, contact.part[0], body.velocity, contact.area[0]);
@@ -627,12 +654,45 @@ void OnePhaseStep<Shape>::mapCellToPoints(State& state, double dt, int c)
     }
 
     double rate = 0; // dilatation rate shared by the points of the cell
+    // Filled cells: mean and slopes of the velocity gradient (rr, zz, hoop, v_r,z, v_z,r) about the points' centre.
+    double gradient[3][5] = {};
+    double centreXi = 0;
+    double centreEta = 0;
+    const bool filled = state.filled[c] != 0;
     if constexpr (strains) {
         if (nodalAverage) {
             rate = cellRate_[c];
-        } else if (meanDilatation && state.filled[c]) {
-            for (int k = 0; k < corners; ++k) {
-                rate += dilatation_[c].br[k] * vr[k] + dilatation_[c].bz[k] * vz[k];
+        }
+        if (filled) {
+            const shapes::Moments<corners> m = Shape::moments(cell);
+            for (int moment = 0; moment < shapes::Moments<corners>::count; ++moment) {
+                double* const g = gradient[moment];
+                for (int k = 0; k < corners; ++k) {
+                    g[0] += m.gr[moment][k] * vr[k];
+                    g[1] += m.gz[moment][k] * vz[k];
+                    g[2] += m.h[moment][k] * vr[k];
+                    g[3] += m.gz[moment][k] * vr[k];
+                    g[4] += m.gr[moment][k] * vz[k];
+                }
+            }
+            if (!nodalAverage) {
+                rate = gradient[0][0] + gradient[0][1] + gradient[0][2];
+            }
+            if constexpr (corners == 4) {
+                for (int j = 0; j < 5; ++j) {
+                    gradient[1][j] /= m.inertiaXi;
+                    gradient[2][j] /= m.inertiaEta;
+                }
+                double w = 0;
+                for (const int* i = first; i != last; ++i) {
+                    const double v = points.volume[*i];
+                    const auto [x, y] = Shape::local(cell, points.r[*i], points.z[*i]);
+                    w += v;
+                    centreXi += v * x;
+                    centreEta += v * y;
+                }
+                centreXi /= w;
+                centreEta /= w;
             }
         } else if (meanDilatation) { // the same mean over the points as in the forces
             double volume = 0;
@@ -661,14 +721,30 @@ void OnePhaseStep<Shape>::mapCellToPoints(State& state, double dt, int c)
         Shape::evaluate(cell, r, points.z[p], values);
         if constexpr (strains) {
             double rr = 0, zz = 0, rz = 0, zr = 0, hoop = 0;
-            for (int k = 0; k < corners; ++k) {
-                rr += values.dr[k] * vr[k];
-                rz += values.dz[k] * vr[k];
-                zr += values.dr[k] * vz[k];
-                zz += values.dz[k] * vz[k];
-                hoop += values.N[k] * vr[k];
+            if (filled) {
+                double x = 0;
+                double y = 0;
+                if constexpr (corners == 4) {
+                    const auto [xi, eta] = Shape::local(cell, r, points.z[p]);
+                    x = xi - centreXi;
+                    y = eta - centreEta;
+                }
+                const auto at = [&](int j) { return gradient[0][j] + x * gradient[1][j] + y * gradient[2][j]; };
+                rr = at(0);
+                zz = at(1);
+                hoop = at(2);
+                rz = at(3);
+                zr = at(4);
+            } else {
+                for (int k = 0; k < corners; ++k) {
+                    rr += values.dr[k] * vr[k];
+                    rz += values.dz[k] * vr[k];
+                    zr += values.dr[k] * vz[k];
+                    zz += values.dz[k] * vz[k];
+                    hoop += values.N[k] * vr[k];
+                }
+                hoop = axisymmetric_ ? hoop / std::max(r, smallestRadius) : 0.0;
             }
-            hoop = axisymmetric_ ? hoop / std::max(r, smallestRadius) : 0.0;
             const double own = rr + zz + hoop;
             const double trace = sharedRate ? rate : own;
             const double shift = (trace - own) / 3;
@@ -728,7 +804,7 @@ void OnePhaseStep<Shape>::addRemappedMomentum(const State& state, int c)
     for (const int* i = pointCells_.begin(c); i != pointCells_.end(c); ++i) {
         const int p = *i;
         Shape::evaluate(cells_[c], points.r[p], points.z[p], values);
-        const double m = inertiaScale_[c] * points.mass[p];
+        const double m = inertiaScale_[c] * fullness_[c] * points.mass[p];
         for (int k = 0; k < corners; ++k) {
             out[k].momentumR += values.N[k] * m * points.vr[p];
             out[k].momentumZ += values.N[k] * m * points.vz[p];
@@ -774,11 +850,19 @@ void OnePhaseStep<Shape>::mapToPoints(State& state, double dt)
 {
     const SolutionControls& controls = scene_.controls;
     const bool remapAll = controls.remap == SolutionControls::Remap::all;
-    const bool remapSome = controls.remap == SolutionControls::Remap::surface;
+    const bool remapSome = controls.remap == SolutionControls::Remap::loose;
     const bool nodalAverage = controls.locking == SolutionControls::Locking::nodalAverage;
-    const auto later = [&](int c) { return remapAll || nodalAverage || (remapSome && bySurface_[c]); };
-    const auto remaps = [&](int c) { return remapAll || (remapSome && bySurface_[c]); };
+    const auto later = [&](int c) { return remapAll || nodalAverage || (remapSome && byLoose_[c]); };
+    const auto remaps = [&](int c) { return remapAll || (remapSome && byLoose_[c]); };
 
+    if (remapSome) {
+        for (const int c : activeCells_) {
+            byLoose_[c] = 0;
+            for (int k = 0; k < corners; ++k) {
+                byLoose_[c] |= looseNode_[cellNodes_[c * corners + k]];
+            }
+        }
+    }
     for (const int c : activeCells_) {
         if (later(c)) {
             mapCellToPoints<true, false>(state, dt, c);
@@ -791,7 +875,7 @@ void OnePhaseStep<Shape>::mapToPoints(State& state, double dt)
             }
         }
         for (const int i : activeNodes_) {
-            if (!(remapAll || surfaceNode_[i]) || nodes_[i].mass <= 0) {
+            if (!(remapAll || looseNode_[i]) || nodes_[i].mass <= 0) {
                 continue;
             }
             double r = 0;

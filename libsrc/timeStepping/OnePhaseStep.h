@@ -38,6 +38,7 @@ private:
     struct Corner
     {
         double mass, momentumR, momentumZ, forceR, forceZ;
+        double fullMass; ///< what it would be in a cell evenly filled
     };
 
     /// Nodal result of a step.
@@ -77,6 +78,10 @@ private:
     std::vector<typename Shape::Cell> cells_;
     std::vector<Dilatation> dilatation_;
     std::vector<double> inertiaScale_; ///< per cell
+    /// Per filled cell: its volume over that of its points. Mass and weight are those of the whole cell, as the
+    /// stress is: the points are samples. Otherwise a cell with few points would have the stiffness of a full
+    /// one on a small mass, and rows of points that cross a line would shift weight from cell to cell.
+    std::vector<double> fullness_;
     std::vector<double> gravityShare_; ///< per material: weighing over inertial density
     std::vector<double> waveSpeed_;    ///< per material
     std::vector<double> density_;      ///< per material, inertial
@@ -85,6 +90,8 @@ private:
     std::vector<unsigned char> occupied_;
     std::vector<unsigned char> surfaceNode_;  ///< touches an empty cell that is no body's
     std::vector<unsigned char> bySurface_;    ///< per cell: has a surface node
+    std::vector<unsigned char> looseNode_;    ///< on a surface, or with a mass well below that of full cells
+    std::vector<unsigned char> byLoose_;      ///< per cell: has a loose node
     std::vector<int> activeCells_, activeNodes_;
     bool occupancyChanged_ = true;
 

@@ -19,13 +19,13 @@ struct SolutionControls
     /// Treatment of volumetric locking: mean dilatation of a quadrilateral [Hughes 1980], or volumetric strain
     /// averaged at the nodes of triangles [Detournay & Dzik 2006].
     enum class Locking { none, meanDilatation, nodalAverage };
-    /// Nodes whose velocity is mapped again from the points before strains are taken from it: none, those on
-    /// the free surface (small masses), or all [Sulsky, Zhou & Schreyer 1995].
-    enum class Remap { none, surface, all };
+    /// Nodes whose velocity is mapped again from the points before strains are taken from it: none, those of
+    /// loosely filled cells and free surfaces, whose masses may be small, or all [Sulsky, Zhou & Schreyer 1995].
+    enum class Remap { none, loose, all };
 
     Integration integration = Integration::mixed;
     Locking locking = Locking::meanDilatation;
-    Remap remap = Remap::surface;
+    Remap remap = Remap::loose;
     double flipShare = 1;          ///< share of the FLIP velocity update per step [-]
     double picTime = 0;            ///< time over which velocities relax to the PIC ones [s]; 0: never
     double localDamping = 0;       ///< share of the out-of-balance force [-]
@@ -33,6 +33,8 @@ struct SolutionControls
     double quadraticBulkViscosity = 0; ///< [-]
     double massScaling = 1;        ///< factor on the inertia of all soil [-]
     double commonTimeStep = 0;     ///< step that cells are scaled up to [s]; 0: none
+    double inertiaGate = 0.02;     ///< of scaled rho v^2 over the vertical effective stress at the tip [-]
+    double energyGate = 0.05;      ///< of kinetic energy over work done [-]
     int sortInterval = 50;         ///< steps between physical sorts of the points
 };
 

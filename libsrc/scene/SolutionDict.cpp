@@ -1,0 +1,69 @@
+#include "scene/SolutionDict.h"
+
+namespace caisson {
+
+namespace {
+
+constexpr Keyword keywords[] = {
+    {"phases", "integer", "1", "1", "1: the soil alone, drained or dry"},
+    {"integration", "word", "mixed", "mixed points",
+     "mixed: cells filled with soil with their own volume, others at their points; points: all at points"},
+    {"volumetricLocking", "word", "automatic", "automatic none meanDilatation nodalAverage",
+     "treatment of locking; automatic: meanDilatation on quadrilaterals, nodalAverage on triangles"},
+    {"velocityRemap", "word", "loose", "none loose all",
+     "nodes whose velocity is mapped again from the points before strains are taken from it"},
+    {"flipShare", "-", "1", "[0, 1]", "share of the FLIP velocity update per step, the rest is PIC"},
+    {"picTime", "s", "0", "[0, inf)", "time over which velocities relax to the PIC ones; 0 is never"},
+    {"localDamping", "-", "0", "[0, 1)",
+     "share of the out-of-balance force that opposes the motion; 0 to 0.05 while a body penetrates"},
+    {"linearBulkViscosity", "-", "0", "[0, 1]", "factor of the linear viscous pressure; 0.06 is usual"},
+    {"quadraticBulkViscosity", "-", "0", "[0, 10]", "factor of the quadratic one, in compression; 1.2 is usual"},
+    {"massScaling", "-", "1", "[1, inf)", "factor on the inertia of all soil"},
+    {"commonTimeStep", "s", "0", "[0, inf)", "step that cells with a smaller stable one are scaled up to; 0 is off"},
+    {"inertiaGate", "-", "0.02", "(0, inf)",
+     "warn where scaled inertia rho v^2 passes this share of the vertical effective stress at the tip"},
+    {"energyGate", "-", "0.05", "(0, inf)", "warn where kinetic energy passes this share of the work done"},
+    {"sortInterval", "integer", "50", "[1, 100000]", "steps between two sorts of the points in memory"},
+};
+
+} // namespace
+
+std::span<const Keyword> solutionKeywords() { return keywords; }
+
+SolutionControls readSolutionControls(const Dictionary& mpmSolution, bool triangles, InputProblems& problems)
+{
+    const KeywordReader reader(mpmSolution, keywords, "mpmSolution", problems);
+    SolutionControls controls;
+    static_cast<void>(reader.integer("phases")); // one phase: the range says so
+    controls.integration = reader.word("integration") == "points" ? SolutionControls::Integration::points
+                                                                  : SolutionControls::Integration::mixed;
+    const std::string locking = reader.word("volumetricLocking");
+    if (locking == "none") {
+        controls.locking = SolutionControls::Locking::none;
+    } else if (locking == "nodalAverage" || (locking == "automatic" && triangles)) {
+        controls.locking = SolutionControls::Locking::nodalAverage;
+    } else {
+        controls.locking = SolutionControls::Locking::meanDilatation;
+    }
+    if (triangles && locking == "meanDilatation") {
+        reader.problem("volumetricLocking", "meanDilatation does nothing on triangles, whose strain is constant",
+                       "choose nodalAverage or none");
+    }
+    const std::string remap = reader.word("velocityRemap");
+    controls.remap = remap == "none"  ? SolutionControls::Remap::none
+                     : remap == "all" ? SolutionControls::Remap::all
+                                      : SolutionControls::Remap::loose;
+    controls.flipShare = reader.number("flipShare");
+    controls.picTime = reader.number("picTime");
+    controls.localDamping = reader.number("localDamping");
+    controls.linearBulkViscosity = reader.number("linearBulkViscosity");
+    controls.quadraticBulkViscosity = reader.number("quadraticBulkViscosity");
+    controls.massScaling = reader.number("massScaling");
+    controls.commonTimeStep = reader.number("commonTimeStep");
+    controls.inertiaGate = reader.number("inertiaGate");
+    controls.energyGate = reader.number("energyGate");
+    controls.sortInterval = static_cast<int>(reader.integer("sortInterval"));
+    return controls;
+}
+
+} // namespace caisson
