@@ -105,6 +105,7 @@ const Law& find(const std::string& type)
 std::vector<std::string> constitutiveLawTypes()
 {
     std::vector<std::string> types;
+    types.reserve(laws.size());
     for (const Law& law : laws)
         types.emplace_back(law.type);
     return types;

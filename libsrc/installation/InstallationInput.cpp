@@ -146,7 +146,7 @@ std::vector<InstallationKeywords> installationKeywords()
 
 InstallationInput readInstallation(const Dictionary& dictionary, const std::filesystem::path& caseDirectory)
 {
-    const std::string subject = dictionary.name();
+    const std::string& subject = dictionary.name();
     InputProblems problems;
     InstallationInput input;
     const KeywordReader reader(dictionary, mainKeywords, subject, problems);

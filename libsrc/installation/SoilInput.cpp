@@ -385,6 +385,7 @@ constexpr std::array methods{
 std::vector<std::string> installationMethods()
 {
     std::vector<std::string> names;
+    names.reserve(methods.size());
     for (const Method& method : methods)
         names.emplace_back(method.name);
     return names;
