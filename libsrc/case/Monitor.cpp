@@ -28,7 +28,7 @@ void appendNumber(std::string& line, double value)
 } // namespace
 
 Monitor::Monitor(const fs::path& caseDirectory, std::string_view name, std::string_view startTime,
-                 std::string_view file, std::vector<MonitorColumn> columns, double interval)
+                 std::string_view file, const std::vector<MonitorColumn>& columns, double interval)
     : path_(caseDirectory / "postProcessing" / name / startTime / (std::string(file) + ".dat")),
       columns_(columns.size()), interval_(interval), next_(-std::numeric_limits<double>::infinity())
 {

@@ -26,7 +26,7 @@ public:
     /// @param interval  least time between two records [s]; 0 records every call
     /// @throws WriteError
     Monitor(const std::filesystem::path& caseDirectory, std::string_view name, std::string_view startTime,
-            std::string_view file, std::vector<MonitorColumn> columns, double interval = 0);
+            std::string_view file, const std::vector<MonitorColumn>& columns, double interval = 0);
     ~Monitor();
     Monitor(Monitor&& other) noexcept;
     Monitor(const Monitor&) = delete;

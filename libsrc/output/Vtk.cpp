@@ -201,10 +201,12 @@ void writeVtkSeries(const fs::path& folder, std::string_view name, std::string_v
     std::string pvd = "<?xml version=\"1.0\"?>\n<VTKFile type=\"Collection\" version=\"0.1\" "
                       "byte_order=\"LittleEndian\">\n  <Collection>\n";
     for (const Item& item : items) {
-        const std::string file = prefix + item.timeName + suffix;
-        series += "    { \"name\" : \"" + file + "\", \"time\" : " + item.timeName + " }" +
-                  (&item == &items.back() ? "\n" : ",\n");
-        pvd += "    <DataSet timestep=\"" + item.timeName + "\" part=\"0\" file=\"" + file + "\"/>\n";
+        std::string file = prefix;
+        file.append(item.timeName).append(suffix);
+        series.append("    { \"name\" : \"").append(file).append("\", \"time\" : ").append(item.timeName);
+        series.append(&item == &items.back() ? " }\n" : " },\n");
+        pvd.append("    <DataSet timestep=\"").append(item.timeName).append("\" part=\"0\" file=\"");
+        pvd.append(file).append("\"/>\n");
     }
     writeFileAtomically(folder / (std::string(name) + suffix + ".series"), series + "  ]\n}\n");
     writeFileAtomically(folder / (std::string(name) + ".pvd"), pvd + "  </Collection>\n</VTKFile>\n");

@@ -7,9 +7,13 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <csignal>
 #include <cstring>
 #include <limits>
 #include <random>
+#include <sys/resource.h>
+#include <sys/wait.h>
+#include <unistd.h>
 
 using namespace caisson;
 namespace fs = std::filesystem;
@@ -240,6 +244,28 @@ TEST(FileIO, fullDiskIsReportedWithFileAndReason)
     } catch (const WriteError& error) {
         EXPECT_STREQ(error.what(), "cannot write /dev/full: No space left on device");
     }
+}
+
+TEST(FileIO, diskThatFillsUpInTheMiddleOfAFileIsReported)
+{
+    // A limit on the size of files makes write() stop half-way, as a disk that fills up does.
+    const TemporaryCase testCase;
+    const pid_t child = fork();
+    if (child == 0) {
+        const rlimit limit{4000, 4000};
+        setrlimit(RLIMIT_FSIZE, &limit);
+        std::signal(SIGXFSZ, SIG_IGN);
+        try {
+            writeCloud(testCase.path() / "1", sampleCloud(1000), {});
+        } catch (const WriteError&) {
+            _exit(fs::is_empty(testCase.path() / "1/lagrangian/materialPoints") ? 0 : 2);
+        }
+        _exit(1);
+    }
+    int status = 0;
+    waitpid(child, &status, 0);
+    ASSERT_TRUE(WIFEXITED(status));
+    EXPECT_EQ(WEXITSTATUS(status), 0) << "1: no error was thrown, 2: half a file was left";
 }
 
 TEST(FileIO, failedWriteKeepsTheOldFileAndLeavesNothingBehind)
