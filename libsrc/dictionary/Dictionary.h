@@ -4,6 +4,7 @@
 
 #include <filesystem>
 #include <memory>
+#include <set>
 #include <string>
 #include <string_view>
 #include <variant>
@@ -16,9 +17,9 @@ struct Token
 {
     enum class Kind { word, string, number, punctuation, verbatim, binary };
     Kind kind = Kind::word;
-    std::string text;        ///< as written (strings without quotes; binary: the raw bytes)
-    double number = 0;       ///< value, for Kind::number
-    bool isInteger = false;  ///< Kind::number written without '.', 'e'
+    std::string text;       ///< as written (strings without quotes; binary: the raw bytes)
+    double number = 0;      ///< value, for Kind::number
+    bool isInteger = false; ///< Kind::number written without '.', 'e'
     int line = 0;
 };
 
@@ -54,11 +55,17 @@ public:
 
 private:
     friend class DictionaryParser;
+    void print(std::string& text, int depth) const;
     std::vector<Entry> entries_;
-    std::vector<std::string> macros_;
+    std::shared_ptr<std::set<std::string, std::less<>>> macros_; ///< shared by all of one file
     std::string name_;
     SourceLocation where_;
+    Dictionary* parent_ = nullptr; ///< while parsing only
 };
+
+/// The dictionaries of a list: `( { ... } name { ... } )`; a name before one becomes its name().
+/// What is not a dictionary becomes a problem.
+std::vector<Dictionary> dictionariesIn(const Entry& entry, InputProblems& problems);
 
 /// Reads a file (or `file`.gz where `file` is missing) and expands macros and directives.
 /// @param displayName  how messages call the file; the path itself where empty

@@ -37,14 +37,15 @@ public:
     [[nodiscard]] bool has(std::string_view key) const; ///< written by the user
     [[nodiscard]] double number(std::string_view key) const;
     [[nodiscard]] long integer(std::string_view key) const;
-    [[nodiscard]] bool flag(std::string_view key) const; ///< yes/no, on/off, true/false
+    [[nodiscard]] bool flag(std::string_view key) const;        ///< yes/no, on/off, true/false
     [[nodiscard]] std::string word(std::string_view key) const; ///< word or string; checked against range
     [[nodiscard]] std::vector<std::string> words(std::string_view key) const;
     [[nodiscard]] std::array<double, 3> vector(std::string_view key) const;
-    [[nodiscard]] std::vector<double> numbers(std::string_view key) const;              ///< (a b c)
-    [[nodiscard]] std::vector<std::vector<double>> rows(std::string_view key) const;    ///< ((a b) (c d))
-    [[nodiscard]] const Dictionary* dictionary(std::string_view key) const; ///< nullptr where absent
-    [[nodiscard]] const Entry* entry(std::string_view key) const;           ///< nullptr where absent
+    [[nodiscard]] std::vector<double> numbers(std::string_view key) const;           ///< (a b c)
+    [[nodiscard]] std::vector<std::vector<double>> rows(std::string_view key) const; ///< ((a b) (c d))
+    [[nodiscard]] const Dictionary* dictionary(std::string_view key) const;          ///< nullptr where absent
+    [[nodiscard]] std::vector<Dictionary> dictionaries(std::string_view key) const;  ///< ( { ... } { ... } )
+    [[nodiscard]] const Entry* entry(std::string_view key) const;                    ///< nullptr where absent
     [[nodiscard]] SourceLocation where(std::string_view key) const; ///< of the key, or of the dictionary
 
     /// For checks that span several keys.

@@ -1,0 +1,408 @@
+#include "dictionary/KeywordReader.h"
+
+#include "dictionary/Units.h"
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <limits>
+
+namespace caisson {
+
+namespace {
+
+constexpr std::string_view required = "";
+constexpr std::string_view optionalKey = "-";
+
+std::vector<std::string> split(std::string_view text)
+{
+    std::vector<std::string> words;
+    for (std::size_t i = 0; i < text.size();) {
+        if (text[i] == ' ') {
+            ++i;
+            continue;
+        }
+        const std::size_t end = std::min(text.find(' ', i), text.size());
+        words.emplace_back(text.substr(i, end - i));
+        i = end;
+    }
+    return words;
+}
+
+double parseBound(std::string_view text)
+{
+    while (!text.empty() && text.front() == ' ') {
+        text.remove_prefix(1);
+    }
+    if (text == "inf") {
+        return std::numeric_limits<double>::infinity();
+    }
+    if (text == "-inf") {
+        return -std::numeric_limits<double>::infinity();
+    }
+    double value = 0;
+    std::from_chars(text.data(), text.data() + text.size(), value);
+    return value;
+}
+
+bool isInterval(std::string_view range)
+{
+    return !range.empty() && (range.front() == '(' || range.front() == '[');
+}
+
+bool inside(double value, std::string_view range)
+{
+    const std::size_t comma = range.find(',');
+    const double low = parseBound(range.substr(1, comma - 1));
+    const double high = parseBound(range.substr(comma + 1, range.size() - comma - 2));
+    const bool aboveLow = range.front() == '[' ? value >= low : value > low;
+    const bool belowHigh = range.back() == ']' ? value <= high : value < high;
+    return aboveLow && belowHigh;
+}
+
+const Keyword* findKeyword(std::span<const Keyword> table, std::string_view key)
+{
+    const auto found = std::ranges::find(table, key, &Keyword::name);
+    return found == table.end() ? nullptr : &*found;
+}
+
+const Keyword& keywordOf(std::span<const Keyword> table, std::string_view key)
+{
+    const Keyword* found = findKeyword(table, key);
+    if (!found) {
+        throw std::logic_error("keyword '" + std::string(key) + "' is in no table");
+    }
+    return *found;
+}
+
+std::string spell(const std::vector<Token>& tokens)
+{
+    std::string text;
+    for (const Token& token : tokens) {
+        text += (text.empty() ? "" : " ") + token.text;
+    }
+    return text.size() > 60 ? text.substr(0, 57) + "..." : text;
+}
+
+/// The value's tokens: without a leading name (legacy `nu nu [..] 1`) and dimension set, which is checked.
+std::span<const Token> valueTokens(const Entry& entry, const Keyword& keyword, InputProblems& problems)
+{
+    std::span<const Token> tokens = entry.tokens;
+    const auto isBracket = [](const Token& token, char c) {
+        return token.kind == Token::Kind::punctuation && token.text[0] == c;
+    };
+    if (tokens.size() > 1 && tokens[0].kind == Token::Kind::word && isBracket(tokens[1], '[')) {
+        tokens = tokens.subspan(1);
+    }
+    if (tokens.empty() || !isBracket(tokens[0], '[')) {
+        return tokens;
+    }
+    std::size_t close = 0;
+    while (close < tokens.size() && !isBracket(tokens[close], ']')) {
+        ++close;
+    }
+    if (close == tokens.size()) {
+        problems.add(entry.where, "'" + entry.keyword + "': dimension set without ']'");
+        return {};
+    }
+    std::optional<Dimensions> given;
+    Dimensions exponents{};
+    bool allNumbers = true;
+    std::string symbols;
+    for (std::size_t i = 1; i < close; ++i) {
+        allNumbers = allNumbers && tokens[i].kind == Token::Kind::number;
+        if (tokens[i].kind == Token::Kind::number && i - 1 < exponents.size()) {
+            exponents[i - 1] = tokens[i].number;
+        }
+        symbols += tokens[i].text + " ";
+    }
+    if (allNumbers && (close - 1 == 5 || close - 1 == 7)) {
+        given = exponents;
+    } else if (!allNumbers || close == 1) {
+        given = close == 1 ? Dimensions{} : dimensionsOf(symbols);
+    }
+    const std::optional<Dimensions> expected = dimensionsOf(keyword.unit);
+    if (!given) {
+        problems.add(entry.where, "'" + entry.keyword + "': '[" + symbols + "]' is no dimension set",
+                     "five or seven exponents of kg m s K mol A cd, or units such as [kg m^-3]");
+    } else if (expected && *given != *expected) {
+        problems.add(entry.where, "'" + entry.keyword + "' has the dimensions " + printDimensions(*given),
+                     "expected " + printDimensions(*expected) + ", the unit is " + std::string(keyword.unit));
+    }
+    return tokens.subspan(close + 1);
+}
+
+} // namespace
+
+KeywordReader::KeywordReader(const Dictionary& dictionary, std::span<const Keyword> table,
+                             std::string_view what, InputProblems& problems)
+    : dictionary_(dictionary), table_(table), what_(what), problems_(problems)
+{
+    std::vector<std::string> valid;
+    for (const Keyword& keyword : table_) {
+        valid.emplace_back(keyword.name);
+    }
+    for (const Entry& entry : dictionary_.entries()) {
+        const bool coefficients = entry.keyword.ends_with("Coeffs") &&
+                                  findKeyword(table_, entry.keyword.substr(0, entry.keyword.size() - 6));
+        if (!findKeyword(table_, entry.keyword) && entry.keyword != "FoamFile" && !coefficients &&
+            !entry.isPattern && !dictionary_.usedAsMacro(entry.keyword)) {
+            problems_.add(entry.where, "unknown key '" + entry.keyword + "' in " + what_,
+                          suggestion(entry.keyword, valid, "keys"));
+        }
+    }
+}
+
+bool KeywordReader::has(std::string_view key) const
+{
+    static_cast<void>(keywordOf(table_, key));
+    return dictionary_.find(key) != nullptr;
+}
+
+const Entry* KeywordReader::entry(std::string_view key) const
+{
+    const Keyword& keyword = keywordOf(table_, key);
+    const Entry* found = dictionary_.find(key);
+    if (!found && keyword.defaultValue == required) {
+        std::string hint = std::string(keyword.meaning);
+        const auto dimensions = dimensionsOf(keyword.unit);
+        hint += dimensions ? " [" + std::string(keyword.unit) + "]" : " (" + std::string(keyword.unit) + ")";
+        problems_.add(dictionary_.where(), "missing key '" + std::string(key) + "' in " + what_, hint);
+    }
+    return found;
+}
+
+SourceLocation KeywordReader::where(std::string_view key) const
+{
+    const Entry* found = dictionary_.find(key);
+    return found ? found->where : dictionary_.where();
+}
+
+void KeywordReader::problem(std::string_view key, std::string message, std::string hint) const
+{
+    problems_.add(where(key), std::move(message), std::move(hint));
+}
+
+double KeywordReader::number(std::string_view key) const
+{
+    const Keyword& keyword = keywordOf(table_, key);
+    const Entry* found = entry(key);
+    double value = parseBound(keyword.defaultValue);
+    if (!found) {
+        return keyword.defaultValue == required || keyword.defaultValue == optionalKey ? 0 : value;
+    }
+    const auto tokens = valueTokens(*found, keyword, problems_);
+    if (found->dictionary || tokens.size() != 1 || tokens[0].kind != Token::Kind::number) {
+        problems_.add(found->where,
+                      "'" + std::string(key) + "' is '" +
+                          (found->dictionary ? "{...}" : spell(found->tokens)) + "', not a number",
+                      "unit: " + std::string(keyword.unit));
+        return 0;
+    }
+    value = tokens[0].number;
+    if (!std::isfinite(value) || (isInterval(keyword.range) && !inside(value, keyword.range))) {
+        problems_.add(found->where,
+                      std::string(key) + " " + tokens[0].text + " is outside " + std::string(keyword.range),
+                      std::string(keyword.meaning) + " [" + std::string(keyword.unit) + "]");
+    }
+    return value;
+}
+
+long KeywordReader::integer(std::string_view key) const
+{
+    const Entry* found = dictionary_.find(key);
+    const double value = number(key);
+    if (found && value != std::floor(value)) {
+        problems_.add(found->where,
+                      "'" + std::string(key) + "' is '" + spell(found->tokens) + "', not a whole number");
+        return 0;
+    }
+    const Keyword& keyword = keywordOf(table_, key);
+    if (found && !isInterval(keyword.range) && !keyword.range.empty()) {
+        const auto valid = split(keyword.range);
+        if (std::ranges::find(valid, std::to_string(static_cast<long>(value))) == valid.end()) {
+            problems_.add(found->where,
+                          std::string(key) + " " + spell(found->tokens) + " is not among the valid ones",
+                          "valid: " + std::string(keyword.range));
+        }
+    }
+    return static_cast<long>(value);
+}
+
+bool KeywordReader::flag(std::string_view key) const
+{
+    const Keyword& keyword = keywordOf(table_, key);
+    const Entry* found = entry(key);
+    const std::string text = found && found->tokens.size() == 1 ? found->tokens[0].text
+                             : found                            ? spell(found->tokens)
+                                                                : std::string(keyword.defaultValue);
+    for (const std::string_view yes : {"yes", "on", "true", "y", "t"}) {
+        if (text == yes) {
+            return true;
+        }
+    }
+    for (const std::string_view no : {"no", "off", "false", "n", "f", "none"}) {
+        if (text == no) {
+            return false;
+        }
+    }
+    if (found) {
+        problems_.add(found->where, "'" + std::string(key) + "' is '" + text + "', not a flag",
+                      "valid: yes no on off true false");
+    }
+    return false;
+}
+
+std::string KeywordReader::word(std::string_view key) const
+{
+    const Keyword& keyword = keywordOf(table_, key);
+    const Entry* found = entry(key);
+    if (!found) {
+        return keyword.defaultValue == optionalKey ? std::string() : std::string(keyword.defaultValue);
+    }
+    if (found->dictionary || found->tokens.size() != 1 ||
+        (found->tokens[0].kind != Token::Kind::word && found->tokens[0].kind != Token::Kind::string)) {
+        problems_.add(found->where,
+                      "'" + std::string(key) + "' is '" +
+                          (found->dictionary ? "{...}" : spell(found->tokens)) + "', not one word",
+                      keyword.range.empty() ? "" : "valid: " + std::string(keyword.range));
+        return {};
+    }
+    std::string text = found->tokens[0].text;
+    if (!keyword.range.empty()) {
+        const std::vector<std::string> valid = split(keyword.range);
+        if (std::ranges::find(valid, text) == valid.end()) {
+            problems_.add(found->where, "unknown word '" + text + "' for " + std::string(key),
+                          suggestion(text, valid, ""));
+        }
+    }
+    return text;
+}
+
+std::vector<std::string> KeywordReader::words(std::string_view key) const
+{
+    std::vector<std::string> result;
+    const Keyword& keyword = keywordOf(table_, key);
+    const Entry* found = entry(key);
+    if (!found) {
+        return keyword.defaultValue == optionalKey ? result : split(keyword.defaultValue);
+    }
+    for (const Token& token : found->tokens) {
+        if (token.kind == Token::Kind::word || token.kind == Token::Kind::string) {
+            result.push_back(token.text);
+            if (!keyword.range.empty()) {
+                const std::vector<std::string> valid = split(keyword.range);
+                if (std::ranges::find(valid, token.text) == valid.end()) {
+                    problems_.add(found->where, "unknown word '" + token.text + "' for " + std::string(key),
+                                  suggestion(token.text, valid, ""));
+                }
+            }
+        } else if (token.kind == Token::Kind::number) {
+            // The count that may stand before a list.
+            continue;
+        } else if (token.kind != Token::Kind::punctuation) {
+            problems_.add(found->where, "'" + std::string(key) + "': '" + token.text + "' is not a word");
+        }
+    }
+    return result;
+}
+
+std::vector<double> KeywordReader::numbers(std::string_view key) const
+{
+    std::vector<double> result;
+    for (const auto& row : rows(key)) {
+        result.insert(result.end(), row.begin(), row.end());
+    }
+    return result;
+}
+
+std::vector<std::vector<double>> KeywordReader::rows(std::string_view key) const
+{
+    std::vector<std::vector<double>> result;
+    const Keyword& keyword = keywordOf(table_, key);
+    const Entry* found = entry(key);
+    if (!found) {
+        if (keyword.defaultValue.starts_with('(')) {
+            result.emplace_back();
+            for (const std::string& item :
+                 split(keyword.defaultValue.substr(1, keyword.defaultValue.size() - 2))) {
+                result.back().push_back(parseBound(item));
+            }
+        }
+        return result;
+    }
+    int depth = 0;
+    bool good = !found->dictionary;
+    for (const Token& token : valueTokens(*found, keyword, problems_)) {
+        if (token.kind == Token::Kind::punctuation && token.text == "(") {
+            if (++depth == 2 || (depth == 1 && result.empty())) {
+                result.emplace_back();
+            }
+        } else if (token.kind == Token::Kind::punctuation && token.text == ")") {
+            --depth;
+        } else if (token.kind == Token::Kind::number && depth > 0) {
+            result.back().push_back(token.number);
+        } else if (token.kind == Token::Kind::number && depth == 0 && result.empty()) {
+            continue; // the count before a list
+        } else if (!(token.kind == Token::Kind::word &&
+                     (token.text == "uniform" || token.text == "constant"))) {
+            good = false;
+        }
+    }
+    std::erase_if(result, [](const auto& row) { return row.empty(); });
+    if (!good || result.empty() || depth != 0) {
+        problems_.add(found->where,
+                      "'" + std::string(key) + "' is '" + spell(found->tokens) + "', not a list of numbers",
+                      "write (a b c) or ((a b) (c d))");
+        result.clear();
+    }
+    return result;
+}
+
+std::array<double, 3> KeywordReader::vector(std::string_view key) const
+{
+    const std::vector<double> values = numbers(key);
+    if (values.size() == 3) {
+        return {values[0], values[1], values[2]};
+    }
+    if (!values.empty()) {
+        problem(key,
+                "'" + std::string(key) + "' has " + std::to_string(values.size()) + " components, not three");
+    }
+    return {};
+}
+
+const Dictionary* KeywordReader::dictionary(std::string_view key) const
+{
+    const Entry* found = entry(key);
+    if (found && !found->dictionary) {
+        problems_.add(found->where, "'" + std::string(key) + "' is not a sub-dictionary",
+                      "write " + std::string(key) + " { ... }");
+        return nullptr;
+    }
+    return found ? found->dictionary.get() : nullptr;
+}
+
+std::vector<Dictionary> KeywordReader::dictionaries(std::string_view key) const
+{
+    const Entry* found = entry(key);
+    return found ? dictionariesIn(*found, problems_) : std::vector<Dictionary>{};
+}
+
+std::string keywordTableMarkdown(std::string_view title, std::span<const Keyword> table)
+{
+    std::string text = "### " + std::string(title) +
+                       "\n\n| key | unit or kind | default | range | meaning |\n"
+                       "|---|---|---|---|---|\n";
+    for (const Keyword& keyword : table) {
+        text += "| `" + std::string(keyword.name) + "` | " + std::string(keyword.unit) + " | ";
+        text += keyword.defaultValue == required      ? "required"
+                : keyword.defaultValue == optionalKey ? "none"
+                                                      : "`" + std::string(keyword.defaultValue) + "`";
+        std::string range(keyword.range);
+        text += " | " + range + " | " + std::string(keyword.meaning) + " |\n";
+    }
+    return text;
+}
+
+} // namespace caisson

@@ -1,0 +1,34 @@
+#include "dictionary/TextFile.h"
+
+#include <zlib.h>
+
+namespace caisson {
+
+std::optional<std::string> readTextFile(const std::filesystem::path& file)
+{
+    std::error_code ignored;
+    std::filesystem::path path = file;
+    if (!std::filesystem::is_regular_file(path, ignored)) {
+        path += ".gz";
+        if (!std::filesystem::is_regular_file(path, ignored)) {
+            return std::nullopt;
+        }
+    }
+    gzFile stream = gzopen(path.c_str(), "rb"); // reads plain files as they are
+    if (!stream) {
+        return std::nullopt;
+    }
+    std::string text;
+    char buffer[1 << 16];
+    int read = 0;
+    while ((read = gzread(stream, buffer, sizeof buffer)) > 0) {
+        text.append(buffer, read);
+    }
+    gzclose(stream);
+    if (read < 0) {
+        return std::nullopt;
+    }
+    return text;
+}
+
+} // namespace caisson
