@@ -69,8 +69,8 @@ std::vector<std::array<double, 3>> polyMeshPoints(const BackgroundMesh& mesh)
         const bool axisymmetric = mesh.geometry == Geometry::axisymmetric;
         const double x = axisymmetric ? mesh.r[i] * cosine : mesh.r[i];
         const double y = axisymmetric ? mesh.r[i] * sine : mesh.halfThickness;
-        points[mesh.nodePoints[i][0]] = {x, -y, mesh.z[i]};
-        points[mesh.nodePoints[i][1]] = {x, y, mesh.z[i]};
+        points[mesh.nodePoints[i][0]] = {x, mesh.middleY - y, mesh.z[i]};
+        points[mesh.nodePoints[i][1]] = {x, mesh.middleY + y, mesh.z[i]};
     }
     return points;
 }

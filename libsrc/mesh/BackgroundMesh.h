@@ -31,7 +31,7 @@ struct BoundaryEdge
 struct BoundaryPatch
 {
     std::string name;
-    std::string type; ///< as in polyMesh/boundary: patch, wall, symmetry ...
+    std::string type;                ///< as in polyMesh/boundary: patch, wall, symmetry ...
     std::vector<BoundaryEdge> edges; ///< empty for the axis and for the wedge/empty patches
 };
 
@@ -45,7 +45,7 @@ struct BackgroundMesh
     Geometry geometry = Geometry::axisymmetric;
     int corners = 4; ///< nodes per cell: 4 or 3
 
-    std::vector<double> r, z; ///< node coordinates now [m]
+    std::vector<double> r, z;   ///< node coordinates now [m]
     std::vector<int> cellNodes; ///< corners * cells
     std::vector<int> neighbour; ///< corners * cells: cell across side k (corners k, k+1), or -1 at a boundary
     std::vector<BoundaryPatch> patches;
@@ -54,8 +54,9 @@ struct BackgroundMesh
 
     /// polyMesh points that belong to each node: the front one and the back one (equal on the axis).
     std::vector<std::array<int, 2>> nodePoints;
-    double wedgeHalfAngle = 0;  ///< [rad], axisymmetric
-    double halfThickness = 0;   ///< [m], plane strain: half the distance of the empty planes
+    double wedgeHalfAngle = 0; ///< [rad], axisymmetric
+    double halfThickness = 0;  ///< [m], plane strain: half the distance of the empty planes
+    double middleY = 0;        ///< [m], plane strain: y half-way between the empty planes
     int polyMeshPoints = 0;
 
     [[nodiscard]] int nodes() const { return static_cast<int>(r.size()); }

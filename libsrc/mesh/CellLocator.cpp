@@ -28,12 +28,12 @@ int sideBeyond(const BackgroundMesh& mesh, double r, double z, int cell)
         const double dr = mesh.r[b] - mesh.r[a];
         const double dz = mesh.z[b] - mesh.z[a];
         const double cross = dr * (z - mesh.z[a]) - dz * (r - mesh.r[a]);
-        if (cross < 0) {
+        if (!(cross >= 0)) { // so that nan lies outside
             const int side = k == 0 ? mesh.corners - 1 : k - 1;
             if (mesh.neighbour[first + side] >= 0) {
                 return side;
             }
-            if (cross < -boundaryTolerance * (dr * dr + dz * dz)) {
+            if (!(cross >= -boundaryTolerance * (dr * dr + dz * dz))) {
                 beyond = side;
             }
         }
@@ -101,6 +101,9 @@ int CellLocator::walk(double r, double z, int startCell) const
 
 int CellLocator::find(double r, double z) const
 {
+    if (!std::isfinite(r) || !std::isfinite(z)) {
+        return -1;
+    }
     const double i = std::clamp(std::floor((r - originR_) / binSize_), 0.0, binsR_ - 1.0);
     const double j = std::clamp(std::floor((z - originZ_) / binSize_), 0.0, binsZ_ - 1.0);
     return walk(r, z, binCell_[static_cast<int>(j) * binsR_ + static_cast<int>(i)]);
