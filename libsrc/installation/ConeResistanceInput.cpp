@@ -24,6 +24,7 @@ constexpr std::array fileKeywords{
 DepthProfile readConeFile(const Dictionary& dictionary, const std::filesystem::path& caseDirectory,
                           InputProblems& problems)
 {
+    const std::size_t before = problems.all().size();
     const KeywordReader reader(dictionary, fileKeywords, "'coneResistanceFile'", problems);
     const std::string name = reader.word("file");
     const auto headerLines = reader.integer("nHeaderLine");
@@ -32,10 +33,11 @@ DepthProfile readConeFile(const Dictionary& dictionary, const std::filesystem::p
     const std::string separator = reader.word("separator");
     const double depthFactor = reader.number("depthFactor");
     const double valueFactor = reader.number("valueFactor");
+    if (problems.all().size() > before)
+        return DepthProfile();
     std::ifstream file(caseDirectory / name);
     if (!file) {
-        if (!name.empty())
-            reader.problem("file", "cannot read the file '" + name + "'");
+        reader.problem("file", "cannot read the file '" + name + "'");
         return DepthProfile();
     }
     if (separator.size() != 1) {
@@ -89,23 +91,20 @@ std::span<const Keyword> coneFileKeywords() { return fileKeywords; }
 std::vector<std::vector<double>> readPairs(const KeywordReader& reader, const std::string_view key,
                                            const std::size_t least)
 {
-    std::vector<std::vector<double>> rows = reader.rows(key);
-    const bool pairs = std::ranges::all_of(rows, [](const auto& row) { return row.size() == 2; });
-    bool increasing = pairs;
-    for (std::size_t i = 1; increasing && i < rows.size(); ++i)
-        increasing = rows[i][0] > rows[i - 1][0];
-    const bool positive =
-        pairs && std::ranges::all_of(rows, [](const auto& row) { return row[0] >= 0 && row[1] >= 0; });
-    if (rows.size() >= least && pairs && increasing && positive)
-        return rows;
     const std::size_t before = reader.problems().all().size();
-    if (!pairs || rows.size() < least)
-        reader.problem(key, "'" + std::string(key) + "' needs " + std::to_string(least) +
-                                " or more pairs: ((0 0) (1 1))");
-    else if (!increasing)
-        reader.problem(key, "the first numbers of '" + std::string(key) + "' must increase");
-    else if (reader.problems().all().size() == before)
-        reader.problem(key, "'" + std::string(key) + "' holds a negative number");
+    std::vector<std::vector<double>> rows = reader.rows(key);
+    if (reader.problems().all().size() > before)
+        return {};
+    const std::string name = "'" + std::string(key) + "'";
+    const auto notIncreasing = [](const auto& a, const auto& b) { return a[0] >= b[0]; };
+    if (rows.size() < least || std::ranges::any_of(rows, [](const auto& row) { return row.size() != 2; }))
+        reader.problem(key, name + " needs " + std::to_string(least) + " or more pairs: ((0 0) (1 1))");
+    else if (std::ranges::adjacent_find(rows, notIncreasing) != rows.end())
+        reader.problem(key, "the first numbers of " + name + " must increase");
+    else if (std::ranges::any_of(rows, [](const auto& row) { return row[0] < 0 || row[1] < 0; }))
+        reader.problem(key, name + " holds a negative number");
+    else
+        return rows;
     return {};
 }
 

@@ -91,8 +91,11 @@ struct CaissonInput
 
 CaissonInput readCaisson(const KeywordReader& main, const bool needsWeight, InstallationSite& site)
 {
-    const KeywordReader reader(part(main, "caisson"), caissonKeywords, "'caisson'", main.problems());
     CaissonInput result;
+    const Dictionary* dictionary = main.dictionary("caisson");
+    if (dictionary == nullptr)
+        return result;
+    const KeywordReader reader(*dictionary, caissonKeywords, "'caisson'", main.problems());
     result.caisson.outerDiameter = reader.number("outerDiameter");
     result.caisson.wallThickness = reader.number("wallThickness");
     result.caisson.skirtLength = reader.number("skirtLength");
@@ -122,12 +125,16 @@ void readPenetration(const KeywordReader& main, const double skirtLength, Instal
     input.start = reader.number("start");
     input.end = reader.has("end") ? reader.number("end") : skirtLength;
     input.increment = reader.number("increment");
+    if (reader.has("rate"))
+        input.rate = readFunction1(dictionary, "rate", main.problems());
+    if (skirtLength <= 0)
+        return; // reported with the caisson
     if (input.end <= input.start)
         reader.problem("end", "the table would be empty: end is not beyond start");
     else if (input.end > skirtLength * (1 + 1e-12))
         reader.problem("end", "end is beyond skirtLength");
-    if (reader.has("rate"))
-        input.rate = readFunction1(dictionary, "rate", main.problems());
+    else if (input.increment > 0 && (input.end - input.start) / input.increment > 1e5)
+        reader.problem("increment", "so small an increment would make a table of more than 100000 rows");
 }
 
 } // namespace
