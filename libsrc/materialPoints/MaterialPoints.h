@@ -11,16 +11,16 @@ namespace caisson {
 /// per metre of thickness (plane strain).
 struct MaterialPoints
 {
-    std::vector<double> r, z;        ///< place [m]
-    std::vector<double> vr, vz;      ///< velocity of the solid [m/s]
-    std::vector<double> mass;        ///< [kg/rad] or [kg/m]
-    std::vector<double> volume;      ///< [m3/rad] or [m2]
+    std::vector<double> r, z;                  ///< place [m]
+    std::vector<double> vr, vz;                ///< velocity of the solid [m/s]
+    std::vector<double> mass;                  ///< [kg/rad] or [kg/m]
+    std::vector<double> volume;                ///< [m3/rad] or [m2]
     std::array<std::vector<double>, 4> stress; ///< rr zz tt rz [Pa]
     std::vector<std::vector<double>> state;    ///< variables of the constitutive laws, [variable][point]
-    std::vector<int> cell;           ///< background cell
-    std::vector<int> material;       ///< index into the scene's materials
-    std::vector<int> id;             ///< stays with the point for its life
-    std::vector<double> initialR, initialZ; ///< place at the start of the simulation [m]
+    std::vector<int> cell;                     ///< background cell
+    std::vector<int> material;                 ///< index into the scene's materials
+    std::vector<int> id;                       ///< stays with the point for its life
+    std::vector<double> initialR, initialZ;    ///< place at the start of the simulation [m]
 
     [[nodiscard]] std::size_t size() const { return r.size(); }
     void resize(std::size_t points, std::size_t stateVariables);
