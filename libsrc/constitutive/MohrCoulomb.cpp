@@ -13,22 +13,6 @@ namespace {
 
 constexpr int chunkSize = 256;
 
-/// Principal stresses of the returned point put back in the place of the trial's, and the axes of the
-/// in-plane pair, which an isotropic return does not turn.
-struct Ordering
-{
-    int inPlaneMajor, inPlaneMinor, hoop; // ranks, 0 for the largest
-};
-
-Ordering ordering(const double major, const double minor, const double hoop)
-{
-    if (hoop >= major)
-        return {1, 2, 0};
-    if (hoop <= minor)
-        return {0, 1, 2};
-    return {0, 2, 1};
-}
-
 } // namespace
 
 MohrCoulomb::MohrCoulomb(const IsotropicElasticity& elasticity, const MohrCoulombStrength& strength,
@@ -102,11 +86,14 @@ void MohrCoulomb::updateChunk(const StressBatch& batch, const int begin, const i
         const double mean = 0.5 * (rr[i] + zz[i]);
         const double major = mean + radius[i];
         const double minor = mean - radius[i];
-        const Ordering rank = ordering(major, minor, tt[i]);
-        MohrCoulombSurface::Principal trial;
-        trial[rank.inPlaneMajor] = major;
-        trial[rank.inPlaneMinor] = minor;
-        trial[rank.hoop] = tt[i];
+        const double hoop = tt[i];
+        const bool hoopIsLargest = hoop >= major;
+        const bool hoopIsSmallest = hoop <= minor;
+        const MohrCoulombSurface::Principal trial{hoopIsLargest ? hoop : major,
+                                                  hoopIsLargest    ? major
+                                                  : hoopIsSmallest ? minor
+                                                                   : hoop,
+                                                  hoopIsSmallest ? hoop : minor};
         const MohrCoulombSurface::Return result = surface.returned(trial);
 
         const std::array<double, 3> taken{trial[0] - result.stress[0], trial[1] - result.stress[1],
@@ -120,14 +107,15 @@ void MohrCoulomb::updateChunk(const StressBatch& batch, const int begin, const i
                          ? std::max(0.0, (taken[0] + taken[1] + taken[2]) / (3 * bulk))
                          : 0.0;
 
-        const double newMajor = result.stress[rank.inPlaneMajor];
-        const double newMinor = result.stress[rank.inPlaneMinor];
+        // The return keeps the order of the stresses and the axes of the in-plane pair.
+        const double newMajor = hoopIsLargest ? result.stress[1] : result.stress[0];
+        const double newMinor = hoopIsSmallest ? result.stress[1] : result.stress[2];
         const double newMean = 0.5 * (newMajor + newMinor);
         const double shrink = radius[i] > 0 ? 0.5 * (newMajor - newMinor) / radius[i] : 0;
         const double halfDifference = 0.5 * (rr[i] - zz[i]) * shrink;
         rr[i] = newMean + halfDifference;
         zz[i] = newMean - halfDifference;
-        tt[i] = result.stress[rank.hoop];
+        tt[i] = hoopIsLargest ? result.stress[0] : hoopIsSmallest ? result.stress[2] : result.stress[1];
         rz[i] *= shrink;
     }
 }
