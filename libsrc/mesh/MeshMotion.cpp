@@ -50,12 +50,13 @@ DisplacementRange MeshMotion::allowedDisplacements() const
 std::span<const Keyword> meshMotionKeywords()
 {
     static constexpr Keyword table[] = {
-        {"type", "word", "none", "none followBody", "whether the mesh rests or follows a body vertically"},
-        {"body", "word", "-", "", "name of the body in constant/bodies that the mesh follows"},
-        {"bottom", "m", "-", "", "level below which the mesh rests"},
-        {"movingBottom", "m", "-", "", "lower end of the zone that moves with the body"},
-        {"movingTop", "m", "-", "", "upper end of the zone that moves with the body"},
-        {"top", "m", "-", "", "level above which the mesh rests"},
+        {"type", "word", "", "none followBody",
+         "none: the mesh rests, and no other key is needed; followBody: it follows a body"},
+        {"body", "word", "", "", "name of the body in constant/bodies that the mesh follows"},
+        {"bottom", "m", "", "", "level below which the mesh rests"},
+        {"movingBottom", "m", "", "", "lower end of the zone that moves with the body"},
+        {"movingTop", "m", "", "", "upper end of the zone that moves with the body"},
+        {"top", "m", "", "", "level above which the mesh rests"},
     };
     return table;
 }
@@ -66,19 +67,14 @@ MeshMotion readMeshMotion(const Dictionary& dynamicMeshDict, InputProblems& prob
     if (reader.word("type") != "followBody") {
         return {};
     }
-    bool complete = true;
-    for (const char* key : {"body", "bottom", "movingBottom", "movingTop", "top"}) {
-        if (!reader.has(key)) {
-            reader.problem(key, text("'%s' is missing: type followBody needs it", key),
-                           "followBody needs body, bottom, movingBottom, movingTop and top");
-            complete = false;
-        }
-    }
+    const std::string body = reader.word("body");
+    const MeshMotionHeights heights = {reader.number("bottom"), reader.number("movingBottom"),
+                                       reader.number("movingTop"), reader.number("top")};
+    const bool complete = reader.has("body") && reader.has("bottom") && reader.has("movingBottom") &&
+                          reader.has("movingTop") && reader.has("top");
     if (!complete) {
         return {};
     }
-    const MeshMotionHeights heights = {reader.number("bottom"), reader.number("movingBottom"),
-                                       reader.number("movingTop"), reader.number("top")};
     if (!(heights.bottom < heights.movingBottom && heights.movingBottom < heights.movingTop &&
           heights.movingTop < heights.top)) {
         reader.problem("movingBottom", "the levels of the moving mesh must ascend",
@@ -86,7 +82,7 @@ MeshMotion readMeshMotion(const Dictionary& dynamicMeshDict, InputProblems& prob
                             heights.bottom, heights.movingBottom, heights.movingTop, heights.top));
         return {};
     }
-    return MeshMotion(heights, reader.word("body"));
+    return MeshMotion(heights, body);
 }
 
 } // namespace caisson
