@@ -38,8 +38,9 @@ struct BoundaryPatch
 /// The 2-D background mesh in the (r, z) half-plane: one layer of cells of constant/polyMesh, seen through
 /// its wedge (axisymmetric) or empty (plane strain) patch. In plane strain r stands for x.
 ///
-/// Cells are all quadrilaterals or all triangles, corners counter-clockwise. Cell i is cell i of the
-/// polyMesh, so that volFields map one to one; nodes are those of the front plane, compacted.
+/// Cells are all quadrilaterals or all triangles, corners counter-clockwise; side 0 is the one that runs
+/// along r most closely, so corner 0 of an axis-parallel rectangle is the lower left one. Cell i is cell i of
+/// the polyMesh, so that volFields map one to one; nodes are those of the front plane, compacted.
 struct BackgroundMesh
 {
     Geometry geometry = Geometry::axisymmetric;

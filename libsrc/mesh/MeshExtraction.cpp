@@ -66,6 +66,7 @@ private:
     bool pairPoints();
     bool checkPlaces();
     bool makeCells();
+    void startLowerLeft(int cell);
     void joinCells();
     void makeNodeCells();
     int sideOf(int cell, int face) const;
@@ -268,6 +269,23 @@ bool Extraction::checkPlaces()
     return true;
 }
 
+/// Turns the corners so that side 0 is the one that runs along r most closely.
+void Extraction::startLowerLeft(int cell)
+{
+    const auto slope = [&](int k) {
+        const int a = mesh_.node(cell, k);
+        const int b = mesh_.node(cell, (k + 1) % mesh_.corners);
+        const double dr = mesh_.r[b] - mesh_.r[a];
+        return dr / std::hypot(dr, mesh_.z[b] - mesh_.z[a]);
+    };
+    int lowest = 0;
+    for (int k = 1; k < mesh_.corners; ++k) {
+        lowest = slope(k) > slope(lowest) ? k : lowest;
+    }
+    const auto first = mesh_.cellNodes.begin() + static_cast<std::ptrdiff_t>(cell) * mesh_.corners;
+    std::rotate(first, first + lowest, first + mesh_.corners);
+}
+
 bool Extraction::makeCells()
 {
     std::array<int, 2> count = {0, 0};
@@ -302,6 +320,7 @@ bool Extraction::makeCells()
         if (cellArea(mesh_, c) < 0) {
             std::reverse(mesh_.cellNodes.end() - mesh_.corners + 1, mesh_.cellNodes.end());
         }
+        startLowerLeft(c);
         bool convex = true;
         for (int k = 0; k < mesh_.corners; ++k) {
             const int a = mesh_.node(c, k);
