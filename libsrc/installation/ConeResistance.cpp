@@ -1,10 +1,7 @@
 #include "installation/ConeResistance.h"
 
-#include "installation/Seepage.h"
-
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 namespace caisson {
 
@@ -30,14 +27,6 @@ double openPileFrictionFactor(const Caisson& caisson, const double coefficient,
 {
     const double ratio = caisson.innerDiameter() / caisson.outerDiameter;
     return coefficient * std::pow(1 - ratio * ratio, 0.3) * std::tan(interfaceFrictionAngle);
-}
-
-double criticalSuctionFactor(const CriticalSuction formula, const double relativePenetration)
-{
-    constexpr double pi = std::numbers::pi;
-    if (formula == CriticalSuction::feld)
-        return 1.32 * std::pow(relativePenetration, -0.25);
-    return pi - std::atan(5 * std::pow(relativePenetration, 0.85)) * (2 - 2 / pi);
 }
 
 CriticalSuctionMethod::CriticalSuctionMethod(const Caisson& caisson, ConeResistanceSoil soil,

@@ -2,6 +2,7 @@
 
 #include "installation/DepthProfile.h"
 #include "installation/InstallationMethod.h"
+#include "installation/Seepage.h"
 
 namespace caisson {
 
@@ -34,16 +35,6 @@ private:
 /// Friction factor kf = C [1 - (Di/Do)^2]^0.3 tan(delta) of an open pile by the UWA-05 method, used for
 /// skirts by Senders & Randolph (2009).
 double openPileFrictionFactor(const Caisson& caisson, double coefficient, double interfaceFrictionAngle);
-
-/// Critical suction formulas: suction that makes the sand of the plug flow.
-enum class CriticalSuction {
-    /// gamma' h {pi - arctan[5 (h/D)^0.85] (2 - 2/pi)} [Senders & Randolph 2009]
-    sendersRandolph,
-    /// gamma' D 1.32 (h/D)^0.75 [Feld 2001]
-    feld,
-};
-/// Critical suction over (effective unit weight * h) at the relative penetration h/D.
-double criticalSuctionFactor(CriticalSuction formula, double relativePenetration);
 
 /// Cone resistance with the friction inside and the tip resistance falling linearly to zero at the critical
 /// suction, V' + s pi Di^2/4 = Fo + (Fi + Qtip)(1 - s/s_cr) [Senders & Randolph 2009, J. Geotech. Geoenviron.

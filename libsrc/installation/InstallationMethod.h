@@ -82,7 +82,7 @@ template <class Total>
 double InstallationMethod::solveSuction(const double h, const Total& totalResistance) const
 {
     const double missing = totalResistance(0.0) - caisson_.submergedWeight;
-    if (missing <= 0)
+    if (missing <= 1e-12 * caisson_.submergedWeight)
         return 0;
     const auto surplus = [&](const double s) {
         return caisson_.submergedWeight + s * caisson_.plugArea() - totalResistance(s);

@@ -3,8 +3,24 @@
 #include "installation/Seepage.h"
 
 #include <cmath>
+#include <sstream>
 
 namespace caisson {
+
+namespace {
+
+/// What stops an installation that the method itself has an answer for.
+void checkPossible(const InstallationStage& stage, const double limit, const char* what)
+{
+    if (stage.suction <= limit)
+        return;
+    std::ostringstream message;
+    message << "at penetration " << stage.penetration << " m the suction of " << stage.suction
+            << " Pa exceeds " << limit << " Pa, at which " << what;
+    throw SuctionLimitReached(message.str(), stage.penetration, limit);
+}
+
+} // namespace
 
 double InstallationSite::cavitationSuction() const
 {
@@ -23,6 +39,8 @@ InstallationStage installationStage(const InstallationMethod& method, const Inst
     stage.jacking = method.resistance(h, 0);
     stage.underSuction = stage.suction > 0 ? method.resistance(h, stage.suction) : stage.jacking;
     stage.limits = method.limits(h);
+    checkPossible(stage, stage.limits.liquefaction, "the plug liquefies (no effective stress is left in it)");
+    checkPossible(stage, site.cavitationSuction(), "the water cavitates");
     stage.plugHeave = plugHeave(caisson, site.plug, h, jacked ? h : byWeight);
 
     stage.seepageFlow = stage.suction > 0 ? unknown : 0;
@@ -41,13 +59,14 @@ InstallationStage installationStage(const InstallationMethod& method, const Inst
     return stage;
 }
 
-double greatestPenetration(const InstallationMethod& method, const double deepest)
+double greatestPenetration(const InstallationMethod& method, const InstallationSite& site,
+                           const double deepest)
 {
     const auto possible = [&](const double h) {
         try {
-            (void)method.suction(h);
+            (void)installationStage(method, site, h, false, 0);
             return true;
-        } catch (const std::exception&) {
+        } catch (const SuctionLimitReached&) {
             return false;
         }
     };

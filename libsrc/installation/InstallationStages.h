@@ -44,12 +44,13 @@ struct InstallationStage
 /// @param jacked  driven by an outside force: the suction is zero
 /// @param byWeight  penetration reached without suction [m], for the heave of the plug
 /// @param rate  of penetration as a function of it [m/s]; may be empty
-/// @throws SuctionLimitReached, std::out_of_range as the method does
+/// @throws SuctionLimitReached where the method has no suction, or one beyond liquefaction or cavitation;
+///   std::out_of_range as the method does
 InstallationStage installationStage(const InstallationMethod& method, const InstallationSite& site, double h,
                                     bool jacked, double byWeight,
                                     const std::function<double(double)>& rate = {});
 
-/// Deepest penetration that the method has a suction for, between 0 and `deepest` [m].
-double greatestPenetration(const InstallationMethod& method, double deepest);
+/// Deepest penetration up to which suction brings the caisson, between 0 and `deepest` [m].
+double greatestPenetration(const InstallationMethod& method, const InstallationSite& site, double deepest);
 
 } // namespace caisson

@@ -29,13 +29,24 @@ double porePressureFactor(const double relativePenetration, const double permeab
     return a1 * permeabilityRatio / (1 - a1 + a1 * permeabilityRatio);
 }
 
+double criticalSuctionFactor(const CriticalSuction formula, const double relativePenetration)
+{
+    constexpr double pi = std::numbers::pi;
+    if (formula == CriticalSuction::feld)
+        return 1.32 * std::pow(relativePenetration, -0.25);
+    return pi - std::atan(5 * std::pow(relativePenetration, 0.85)) * (2 - 2 / pi);
+}
+
 double exitGradientFactor(const double relativePenetration)
 {
-    constexpr std::array x{0.0, 0.05, 0.1, 0.2, 0.3, 0.5, 0.8, 1.0, 1.5};
-    constexpr std::array factor{std::numbers::pi, 2.614, 2.322, 1.976, 1.766, 1.525, 1.348, 1.284, 1.193};
-    if (relativePenetration > x.back())
-        return 1 + (factor.back() - 1) * x.back() / relativePenetration;
-    return interpolate(x, factor, relativePenetration);
+    constexpr std::array x{0.0, 0.05, 0.1, 0.2, 0.3, 0.5, 0.8, 1.0, 1.5, 10.0};
+    constexpr std::array computed{0.0, 2.614, 2.322, 1.976, 1.766, 1.525, 1.348, 1.284, 1.193, 0.0};
+    std::array<double, x.size()> correction{};
+    correction.front() = correction.back() = 1;
+    for (std::size_t i = 1; i + 1 < x.size(); ++i)
+        correction[i] = computed[i] / criticalSuctionFactor(CriticalSuction::sendersRandolph, x[i]);
+    return criticalSuctionFactor(CriticalSuction::sendersRandolph, relativePenetration) *
+           interpolate(x, correction, std::min(relativePenetration, x.back()));
 }
 
 double seepageFlowFactor(const double relativePenetration, const double permeabilityRatio)

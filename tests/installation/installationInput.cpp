@@ -193,11 +193,31 @@ TEST(InstallationStages, findTheDeepestPossiblePenetration)
                                 "sideFactorInside 1.2; sideFactorOutside 1.2");
     text = replaced(text, "jackedPenetration 1.4", "submergedWeight 1e5");
     const InstallationInput input = read(text);
-    const double deepest = greatestPenetration(*input.method, 5);
+    const double deepest = greatestPenetration(*input.method, input.site, 5);
     EXPECT_GT(deepest, input.byWeight);
     EXPECT_LT(deepest, 5);
     EXPECT_NO_THROW((void)input.method->suction(deepest));
     EXPECT_THROW((void)input.method->suction(deepest + 1e-4), SuctionLimitReached);
+}
+
+TEST(InstallationStages, stopAtLiquefactionAndCavitationWithAReason)
+{
+    const auto message = [](const InstallationInput& input) -> std::string {
+        try {
+            (void)installationStage(*input.method, input.site, 5, false, 0);
+        } catch (const SuctionLimitReached& limit) {
+            return limit.what();
+        }
+        return "no limit";
+    };
+    const std::string table = R"(method table;
+caisson { outerDiameter 5; wallThickness 0.05; skirtLength 5; }
+soil { effectiveUnitWeight 10500; values ((0 0) (1 S)); })";
+    EXPECT_EQ(message(read(replaced(table, "S", "1.1"))), "no limit");
+    EXPECT_NE(message(read(replaced(table, "S", "1.2"))).find("the plug liquefies"), std::string::npos);
+    // friction in the clay and the tip need more than an atmosphere of suction
+    EXPECT_NE(message(read(cone)).find("the water cavitates"), std::string::npos);
+    EXPECT_EQ(message(read(cone + "water { depth 150; }")), "no limit");
 }
 
 TEST(InstallationStages, cavitationFollowsTheDepthOfWater)

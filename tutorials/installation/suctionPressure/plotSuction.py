@@ -23,6 +23,7 @@ jacking = read("jacking")
 
 figure, (left, right) = plt.subplots(1, 2, figsize=(11, 6), sharey=True, constrained_layout=True)
 z = sand["z/L"]
+widest = 1.35 * max(sand["exitGradient"]) / 1e3  # kPa
 left.plot(sand["suction"] / 1e3, z, "k", linewidth=2.5, label="suction needed")
 for column, label, style in (
     ("liquefaction", "plug liquefies (no effective stress)", "C3-"),
@@ -30,8 +31,9 @@ for column, label, style in (
     ("reverseBearing", "reverse bearing", "C4:"),
     ("cavitation", "cavitation", "C0-."),
 ):
-    left.plot(sand[column] / 1e3, z, style, label=label)
-left.set_xlim(0, 1.35 * max(sand["exitGradient"]) / 1e3)
+    beyond = f" (from {min(sand[column]) / 1e3:.0f} kPa, not shown)" if min(sand[column]) / 1e3 > widest else ""
+    left.plot(sand[column] / 1e3, z, style, label=label + beyond)
+left.set_xlim(0, widest)
 left.set_xlabel("suction [kPa]")
 left.set_ylabel("penetration z/L [-]")
 left.legend(loc="upper right")

@@ -47,21 +47,6 @@ std::vector<double> penetrations(const InstallationInput& input)
     return result;
 }
 
-/// What stops an installation that the method itself has an answer for.
-void checkPossible(const InstallationInput& input, const InstallationStage& stage)
-{
-    const auto stop = [&](const double limit, const std::string& what) {
-        if (stage.suction <= limit)
-            return;
-        std::ostringstream message;
-        message << "at penetration " << stage.penetration << " m the suction of " << stage.suction
-                << " Pa exceeds " << limit << " Pa, " << what;
-        throw SuctionLimitReached(message.str(), stage.penetration, limit);
-    };
-    stop(stage.limits.liquefaction, "at which the plug liquefies (no effective stress is left in it)");
-    stop(input.site.cavitationSuction(), "at which the water cavitates");
-}
-
 std::string datText(const InstallationInput& input, const std::vector<InstallationStage>& stages)
 {
     const Caisson& caisson = input.method->caisson();
@@ -149,10 +134,16 @@ void printSummary(const InstallationInput& input, const std::vector<Installation
     else {
         std::cout << "Penetration by the weight of " << caisson.submergedWeight << " N: " << input.byWeight
                   << " m (z/L " << input.byWeight / caisson.skirtLength << ")\n"
-                  << "Suction at penetration " << last.penetration << " m: " << last.suction << " Pa, "
-                  << 100 * last.suction / last.limits.liquefaction << " % of liquefaction, "
-                  << 100 * last.suction / last.limits.exitGradient << " % of the critical exit gradient, "
-                  << 100 * last.suction / input.site.cavitationSuction() << " % of cavitation\n";
+                  << "Suction at penetration " << last.penetration << " m: " << last.suction << " Pa";
+        const auto share = [&](const double limit, const char* name) {
+            if (std::isfinite(limit))
+                std::cout << ", " << 100 * last.suction / limit << " % of " << name;
+        };
+        share(last.limits.liquefaction, "liquefaction");
+        share(last.limits.exitGradient, "the critical exit gradient");
+        share(last.limits.reverseBearing, "reverse bearing");
+        share(input.site.cavitationSuction(), "cavitation");
+        std::cout << '\n';
     }
     if (std::isfinite(last.pumpFlow))
         std::cout << "Flow at the end: seepage " << last.seepageFlow << " m3/s, pump " << last.pumpFlow
@@ -184,17 +175,14 @@ int run(const fs::path& caseDirectory, const fs::path& dictionaryFile)
 
     std::vector<InstallationStage> stages;
     try {
-        for (const double h : penetrations(input)) {
+        for (const double h : penetrations(input))
             stages.push_back(
                 installationStage(*input.method, input.site, h, input.jacked, input.byWeight, rate));
-            if (!input.jacked)
-                checkPossible(input, stages.back());
-        }
     } catch (const SuctionLimitReached& limit) {
         printTable(input, stages);
         std::cerr << "\n--> CAISSONFOAM FATAL ERROR : " << limit.what()
                   << "\n    deepest penetration of method " << input.methodName << ": "
-                  << greatestPenetration(*input.method, input.end)
+                  << greatestPenetration(*input.method, input.site, input.end)
                   << " m\n    lower 'end' in 'penetration', raise the load, or check the soil; no table is "
                      "written\n";
         return 1;
