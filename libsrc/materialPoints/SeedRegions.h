@@ -1,0 +1,50 @@
+#pragma once
+
+#include "constitutive/Material.h"
+#include "function1/Function1.h"
+#include "materialPoints/CellDivision.h"
+
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace caisson {
+
+/// A box within which points are no farther apart than maxSpacing, in the directions of r and z [m].
+struct SeedRefinement
+{
+    std::array<double, 2> low, high;
+    std::array<double, 2> maxSpacing;
+};
+
+/// A part of the mesh that is filled with one material.
+struct SeedRegion
+{
+    SourceLocation where;
+    std::string type;
+    std::string zone;                            ///< of type cellZone
+    std::vector<std::array<double, 2>> boundary; ///< of box, polygon and circle: closed polygon [m]
+    std::array<double, 2> centre{};              ///< of circle [m]
+    double radius = 0;                           ///< of circle [m]
+    int material = 0;
+    CellDivision division;
+    std::vector<SeedRefinement> refinements;
+    std::shared_ptr<const Function1> velocityR, velocityZ; ///< of r and of z [m/s]; none: at rest
+
+    /// Whether the region holds the place (r, z); true for regions made of whole cells.
+    [[nodiscard]] bool contains(double r, double z) const;
+    /// The cells that the region may reach into, ascending.
+    [[nodiscard]] std::vector<int> cells(const BackgroundMesh& mesh) const;
+    /// Volume of the region within a cell, exact (circle: a polygon of 720 sides and the same area).
+    [[nodiscard]] double volumeWithin(const BackgroundMesh& mesh, int cell) const;
+};
+
+std::vector<std::string> seedRegionTypes();
+/// Keywords of a region of the given type, for reading and the user guide.
+std::vector<Keyword> seedRegionKeywords(const std::string& type);
+
+/// Reads `regions ( { type box; min (0 -20); max (15 0); material sand; pointsPerCell (2 2); } ... );`.
+std::vector<SeedRegion> readSeedRegions(const std::vector<Dictionary>& regions, const BackgroundMesh& mesh,
+                                        const std::vector<Material>& materials, InputProblems& problems);
+
+} // namespace caisson
