@@ -1,10 +1,12 @@
-#include "installation/InstallationInput.h"
+#include "installation/InstallationTables.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <fstream>
+#include <iterator>
 #include <numbers>
+#include <sstream>
 #include <stdexcept>
 
 namespace caisson {
@@ -184,6 +186,46 @@ TEST(InstallationInput, reportsSeveralProblemsInOneRun)
     text = replaced(text, "wallThickness 0.05", "wallThickness -1");
     text = replaced(text, "rate table", "rte table");
     expectRefused(text, {"3 problems", "frictionAngle 95", "wallThickness -1", "'rte'"});
+}
+
+/// All the ways in which a case can use the table, each read back as a Function1.
+TEST(InstallationTables, areReadAsFunction1ByTableFileAndByInclude)
+{
+    const InstallationInput input = read(sand);
+    std::vector<InstallationStage> stages;
+    for (const double h : {0.0, 1.4, 3.0, 5.0})
+        stages.push_back(installationStage(*input.method, input.site, h, false, input.byWeight));
+    const fs::path folder = fs::path(::testing::TempDir()) / "installationTables";
+    fs::create_directories(folder / "constant");
+    std::ofstream(folder / "constant/suctionTable") << function1Table(input, stages);
+
+    const std::string file = (folder / "constant/suctionTable").string();
+    for (const std::string& text : {"suction tableFile; suctionCoeffs { file \"" + file + "\"; }",
+                                    "suction { type tableFile; file \"" + file + "\"; }",
+                                    std::string("suction table\n#include \"<constant>/suctionTable\"\n;")}) {
+        InputProblems problems;
+        const Dictionary dictionary = parseDictionary(text, "0/p", folder);
+        const std::unique_ptr<Function1> suction = readFunction1(dictionary, "suction", problems);
+        ASSERT_TRUE(problems.empty()) << text << '\n' << formatProblems("case", problems.all());
+        for (const InstallationStage& stage : stages)
+            EXPECT_NEAR(suction->value(stage.penetration), stage.suction, 1e-6) << text;
+        EXPECT_NEAR(suction->value(4), 0.5 * (stages[2].suction + stages[3].suction), 1e-6) << text;
+    }
+}
+
+TEST(InstallationTables, nameAsManyColumnsAsTheyHave)
+{
+    const InstallationInput input = read(sand + "loading jacked;");
+    const std::string text =
+        stageTable(input, {installationStage(*input.method, input.site, 2, true, input.byWeight)});
+    const std::size_t header = text.rfind("# ") + 2;
+    const std::size_t row = text.find('\n', header);
+    const auto words = [](const std::string& line) {
+        std::istringstream stream(line);
+        return std::distance(std::istream_iterator<std::string>(stream), {});
+    };
+    EXPECT_EQ(words(text.substr(header, row - header)), words(text.substr(row)));
+    EXPECT_EQ(words(text.substr(row)), 18);
 }
 
 TEST(InstallationStages, findTheDeepestPossiblePenetration)

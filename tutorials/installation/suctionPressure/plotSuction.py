@@ -52,4 +52,4 @@ for axes in (left, right):
     axes.set_ylim(1, 0)
     axes.grid(alpha=0.3)
 figure.suptitle("Suction caisson in dense sand [Houlsby & Byrne 2005]")
-figure.savefig("suction.png", dpi=120)
+figure.savefig("postProcessing/suction.png", dpi=120)
