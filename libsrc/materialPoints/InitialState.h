@@ -1,0 +1,33 @@
+#pragma once
+
+#include "materialPoints/Seeding.h"
+
+namespace caisson {
+
+/// Stress of the points at the start.
+struct InitialState
+{
+    enum class Type { zero, uniform, K0 };
+    Type type = Type::zero;
+    std::array<double, 4> stress{}; ///< uniform: rr zz tt rz [Pa]
+    double K0 = 0;                  ///< horizontal over vertical effective stress [-]
+    double surfaceLevel = 0;        ///< z of the soil surface [m]
+    double overburden = 0;          ///< vertical effective pressure on the surface [Pa]
+    SourceLocation where;
+};
+
+std::vector<std::string> initialStateTypes();
+/// Keywords of an initial state of the given type, for reading and the user guide.
+std::vector<Keyword> initialStateKeywords(const std::string& type);
+
+/// Reads `initialState { type K0; K0 0.384; surfaceLevel 0; overburden 0; }`.
+InitialState readInitialState(const Dictionary& dictionary, InputProblems& problems);
+
+/// Sets the stress of all points. K0: the vertical stress carries the overburden and the weight
+/// (weighingDensity) of what lies above; materials of different weight must lie in horizontal layers, the
+/// uppermost of which reaches to surfaceLevel.
+/// @param gravity  [m/s2], r and z; K0 needs it downward
+void setInitialStress(SeededPoints& seeded, const std::vector<Material>& materials, const InitialState& state,
+                      const std::array<double, 2>& gravity, InputProblems& problems);
+
+} // namespace caisson
