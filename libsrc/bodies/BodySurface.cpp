@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <set>
 
 namespace caisson {
 
@@ -52,8 +51,8 @@ BodySurface findBodySurface(const RigidBody& body, const BackgroundMesh& mesh, I
         surface.voidCell[c] = body.contains(r, z);
     }
 
-    // Surface nodes: void cells on one side, soil cells on the other. Each must lie on an edge of the profile.
-    std::vector<int> surfaceIndex(mesh.nodes(), -1);
+    // Surface nodes: void cells on one side, soil cells on the other. Each must lie on an edge of the
+    // profile.
     for (int i = 0; i < mesh.nodes(); ++i) {
         bool touchesVoid = false;
         bool touchesSoil = false;
@@ -76,7 +75,8 @@ BodySurface findBodySurface(const RigidBody& body, const BackgroundMesh& mesh, I
             nearest = std::min(nearest, d);
             if (d < tolerance && node.faces < 2) {
                 // The same plane twice (a face given in two pieces) is one face.
-                if (node.faces == 1 && node.normal[0][0] * edge.normal[0] + node.normal[0][1] * edge.normal[1] > 0.999) {
+                if (node.faces == 1 &&
+                    node.normal[0][0] * edge.normal[0] + node.normal[0][1] * edge.normal[1] > 0.999) {
                     continue;
                 }
                 node.normal[node.faces] = edge.normal;
@@ -85,74 +85,99 @@ BodySurface findBodySurface(const RigidBody& body, const BackgroundMesh& mesh, I
             }
         }
         if (node.faces == 0) {
-            problems.add({}, text("body '%s': its surface cuts through the cells at r = %.6g m, z = %.6g m (%.3g m from the "
-                                  "nearest face)",
-                                  body.name.c_str(), mesh.r[i], mesh.z[i], nearest),
-                         "the mesh must have lines along the faces of the body: check radii, wall thickness and "
-                         "tipLevel against system/blockMeshDict");
+            problems.add(
+                {},
+                text("body '%s': its surface cuts through the cells at r = %.6g m, z = %.6g m (%.3g m from "
+                     "the "
+                     "nearest face)",
+                     body.name.c_str(), mesh.r[i], mesh.z[i], nearest),
+                "the mesh must have lines along the faces of the body: check radii, wall thickness and "
+                "tipLevel against system/blockMeshDict");
             return surface;
         }
         if (node.faces == 2 && node.part[1] == SurfacePart::tip) {
             std::swap(node.normal[0], node.normal[1]);
             std::swap(node.part[0], node.part[1]);
         }
-        surfaceIndex[i] = static_cast<int>(surface.nodes.size());
         surface.nodes.push_back(node);
     }
 
-    // Areas, and the neighbourhood of the tip's corners, from the mesh edges at the surface nodes.
-    const bool axisymmetric = mesh.geometry == Geometry::axisymmetric;
-    std::set<std::pair<int, int>> seen;
-    for (int c = 0; c < mesh.cells(); ++c) {
-        if (surface.voidCell[c]) {
+    updateAreas(surface, mesh);
+
+    // The neighbourhood of the tip's corners: the next node along the tip's level, away from the tip.
+    for (SurfaceNode& node : surface.nodes) {
+        if (node.faces != 2 || node.part[0] != SurfacePart::tip) {
             continue;
         }
-        for (int k = 0; k < mesh.corners; ++k) {
-            const int a = mesh.node(c, k);
-            const int b = mesh.node(c, (k + 1) % mesh.corners);
-            const int across = mesh.neighbour[c * mesh.corners + k];
-            const bool onSurface = across >= 0 && surface.voidCell[across] != 0;
+        for (int k = 0; k < 2; ++k) {
+            node.roundedNormal[k] = node.area[0] * node.normal[0][k] + node.area[1] * node.normal[1][k];
+        }
+        const double normalLength = std::hypot(node.roundedNormal[0], node.roundedNormal[1]);
+        node.roundedNormal[0] /= normalLength;
+        node.roundedNormal[1] /= normalLength;
+        double straightest = 0.9; // least cosine
+        double besideLength = 0;
+        for (int k = mesh.nodeCells.start[node.node]; k < mesh.nodeCells.start[node.node + 1]; ++k) {
+            const int c = mesh.nodeCells.item[k] / mesh.corners;
+            for (int j = 0; j < mesh.corners && !surface.voidCell[c]; ++j) {
+                const int other = mesh.node(c, j);
+                const double dr = mesh.r[other] - mesh.r[node.node];
+                const double dz = mesh.z[other] - mesh.z[node.node];
+                const double length = std::hypot(dr, dz);
+                const double cosine =
+                    length > 0 ? (dr * node.normal[1][0] + dz * node.normal[1][1]) / length : 0;
+                // The nearest of those on the line: a cell's far corner is never on it.
+                if (cosine > straightest) {
+                    straightest = cosine;
+                    node.beside = other;
+                    besideLength = length;
+                }
+            }
+        }
+        if (node.beside >= 0) {
+            const double r = mesh.r[node.node];
+            const double besideArea = mesh.geometry == Geometry::axisymmetric
+                                          ? (2 * r + mesh.r[node.beside]) / 6 * besideLength
+                                          : besideLength / 2;
+            node.tipShare = node.area[0] / (node.area[0] + besideArea);
+        }
+    }
+    return surface;
+}
+
+void updateAreas(BodySurface& surface, const BackgroundMesh& mesh)
+{
+    const bool axisymmetric = mesh.geometry == Geometry::axisymmetric;
+    std::vector<int> surfaceIndex(mesh.nodes(), -1);
+    for (std::size_t i = 0; i < surface.nodes.size(); ++i) {
+        surfaceIndex[surface.nodes[i].node] = static_cast<int>(i);
+        surface.nodes[i].area = {};
+    }
+    for (const SurfaceNode& start : surface.nodes) {
+        for (int k = mesh.nodeCells.start[start.node]; k < mesh.nodeCells.start[start.node + 1]; ++k) {
+            const int c = mesh.nodeCells.item[k] / mesh.corners;
+            const int side = mesh.nodeCells.item[k] % mesh.corners;
+            const int across = mesh.neighbour[c * mesh.corners + side];
+            if (surface.voidCell[c] || across < 0 || !surface.voidCell[across]) {
+                continue; // the side from this corner on is not on the surface
+            }
+            const int a = start.node;
+            const int b = mesh.node(c, (side + 1) % mesh.corners);
             const double length = std::hypot(mesh.r[b] - mesh.r[a], mesh.z[b] - mesh.z[a]);
-            if (onSurface) {
-                // Normal into the soil: the cell lies to the left of a -> b, so it points to the left.
-                const std::array<double, 2> normal{-(mesh.z[b] - mesh.z[a]) / length, (mesh.r[b] - mesh.r[a]) / length};
-                for (const auto& [self, other] : {std::pair{a, b}, std::pair{b, a}}) {
-                    SurfaceNode& node = surface.nodes[surfaceIndex[self]];
-                    const double weight = axisymmetric ? (2 * mesh.r[self] + mesh.r[other]) / 6 : 0.5;
-                    for (int f = 0; f < node.faces; ++f) {
-                        if (node.normal[f][0] * normal[0] + node.normal[f][1] * normal[1] > 0.9) {
-                            node.area[f] += weight * length;
-                        }
+            // Normal into the soil: the cell lies to the left of a -> b, so it points to the left.
+            const std::array<double, 2> normal{-(mesh.z[b] - mesh.z[a]) / length,
+                                               (mesh.r[b] - mesh.r[a]) / length};
+            for (const auto& [self, other] : {std::pair{a, b}, std::pair{b, a}}) {
+                SurfaceNode& node = surface.nodes[surfaceIndex[self]];
+                const double weight = axisymmetric ? (2 * mesh.r[self] + mesh.r[other]) / 6 : 0.5;
+                for (int f = 0; f < node.faces; ++f) {
+                    if (node.normal[f][0] * normal[0] + node.normal[f][1] * normal[1] > 0.9) {
+                        node.area[f] += weight * length;
                     }
                 }
             }
-            for (const auto& [self, other] : {std::pair{a, b}, std::pair{b, a}}) {
-                const int index = surfaceIndex[self];
-                if (index < 0 || surface.nodes[index].faces != 2 || surface.nodes[index].part[0] != SurfacePart::tip) {
-                    continue;
-                }
-                // The next node along the tip's level, away from the tip.
-                SurfaceNode& node = surface.nodes[index];
-                const double dr = mesh.r[other] - mesh.r[self];
-                const double dz = mesh.z[other] - mesh.z[self];
-                const bool away = dr * node.normal[1][0] + dz * node.normal[1][1] > 0;
-                if (!onSurface && away && std::abs(dr * node.normal[0][0] + dz * node.normal[0][1]) < 0.2 * length) {
-                    node.beside = other;
-                }
-            }
         }
     }
-    for (SurfaceNode& node : surface.nodes) {
-        if (node.beside < 0) {
-            continue;
-        }
-        const double besideLength =
-            std::hypot(mesh.r[node.beside] - mesh.r[node.node], mesh.z[node.beside] - mesh.z[node.node]);
-        const double r = mesh.r[node.node];
-        const double besideArea = axisymmetric ? (2 * r + mesh.r[node.beside]) / 6 * besideLength : besideLength / 2;
-        node.tipShare = node.area[0] / (node.area[0] + besideArea);
-    }
-    return surface;
 }
 
 } // namespace caisson

@@ -18,6 +18,7 @@ struct SurfaceNode
     /// and the next node away from the tip on that level.
     double tipShare = 1;
     int beside = -1;
+    std::array<double, 2> roundedNormal{}; ///< there: integral of N n over both faces, as a unit vector
 };
 
 /// Contact of one body with the soil at the nodes of the mesh that lie on its surface.
@@ -31,8 +32,8 @@ struct SurfaceNode
 /// down is not that of the tip. `shared` centres the velocity jump between tip and neighbouring soil on the
 /// corner: the node takes at least w V + (1 - w) v_beside downward, w the share of its hat function under the
 /// tip and v_beside the soil's velocity at the next node, so that the swept volume is the tip's own at any
-/// cell size. `rounded` (the default) lets the soil slip along the surface of a tip rounded over that cell: the
-/// normal is the integral of N n over both faces.
+/// cell size. `rounded` (the default) lets the soil slip along the surface of a tip rounded over that cell:
+/// the normal is the integral of N n over both faces.
 struct BodySurface
 {
     std::vector<SurfaceNode> nodes;
@@ -42,6 +43,9 @@ struct BodySurface
 /// Finds the void cells and the surface nodes of a body in a mesh that conforms to it.
 /// A face of the body that cuts through cells becomes a problem that names the face and the nearest line.
 BodySurface findBodySurface(const RigidBody& body, const BackgroundMesh& mesh, InputProblems& problems);
+
+/// Sets the areas of the faces at the nodes for the mesh as it is now.
+void updateAreas(BodySurface& surface, const BackgroundMesh& mesh);
 
 /// Nearest place outside the body, `clearance` [m] off its nearest face, for a place inside.
 std::array<double, 2> pushOut(const RigidBody& body, double r, double z, double clearance);

@@ -71,10 +71,8 @@ std::vector<ProfileEdge> caissonProfile(double outerRadius, double wallThickness
 {
     const double innerRadius = outerRadius - wallThickness;
     if (lidHeight <= 0) {
-        return profileFromPolygon({{innerRadius, 0},
-                                   {outerRadius, 0},
-                                   {outerRadius, skirtLength},
-                                   {innerRadius, skirtLength}});
+        return profileFromPolygon(
+            {{innerRadius, 0}, {outerRadius, 0}, {outerRadius, skirtLength}, {innerRadius, skirtLength}});
     }
     auto edges = profileFromPolygon({{innerRadius, 0},
                                      {outerRadius, 0},
@@ -167,8 +165,9 @@ std::vector<RigidBody> readBodies(const Dictionary& bodies, InputProblems& probl
             std::vector<std::array<double, 2>> corners;
             for (const auto& row : reader.rows("profile")) {
                 if (row.size() != 2) {
-                    reader.problem("profile", "a corner of 'profile' has " + std::to_string(row.size()) +
-                                                  " numbers", "write ((r z) (r z) ...)");
+                    reader.problem("profile",
+                                   "a corner of 'profile' has " + std::to_string(row.size()) + " numbers",
+                                   "write ((r z) (r z) ...)");
                     break;
                 }
                 corners.push_back({row[0], row[1]});
@@ -186,9 +185,9 @@ std::vector<RigidBody> readBodies(const Dictionary& bodies, InputProblems& probl
             if (wallThickness >= outerRadius && outerRadius > 0) {
                 reader.problem("wallThickness", "wallThickness is not smaller than outerRadius");
             } else {
-                body.profile =
-                    caissonProfile(outerRadius, wallThickness, body.referenceLength,
-                                   reader.has("lid") ? reader.number("lid") : 0.0, reader.number("lidThickness"));
+                body.profile = caissonProfile(outerRadius, wallThickness, body.referenceLength,
+                                              reader.has("lid") ? reader.number("lid") : 0.0,
+                                              reader.number("lidThickness"));
             }
         }
         result.push_back(std::move(body));

@@ -43,7 +43,7 @@ struct RigidBody
     enum class Variable { time, penetration };
     Variable variable = Variable::time;
     std::shared_ptr<const Function1> penetrationRate; ///< downward positive [m/s]; none: at rest
-    double ramp = 0;            ///< time over which the rate rises from rest [s]
+    double ramp = 0;                                  ///< time over which the rate rises from rest [s]
     double referenceLength = 0; ///< length that depths are normalised with in output (the skirt length) [m]
 
     [[nodiscard]] double penetration() const { return surfaceLevel - tipLevel; }
@@ -53,8 +53,8 @@ struct RigidBody
     [[nodiscard]] bool contains(double r, double z) const;
 };
 
-/// The closed polygon (counter-clockwise, any reference height) as profile edges relative to its lowest point;
-/// parts by normal: downward tip, towards the axis inner, away from it outer, upward lid.
+/// The closed polygon (counter-clockwise, any reference height) as profile edges relative to its lowest
+/// point; parts by normal: downward tip, towards the axis inner, away from it outer, upward lid.
 std::vector<ProfileEdge> profileFromPolygon(std::vector<std::array<double, 2>> polygon);
 
 /// Skirt of a caisson: rectangle between the inner and the outer radius, with a lid where `lidHeight` > 0

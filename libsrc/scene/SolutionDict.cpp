@@ -17,18 +17,27 @@ constexpr Keyword keywords[] = {
     {"localDamping", "-", "0", "[0, 1)",
      "share of the out-of-balance force that opposes the motion; 0 to 0.05 while a body penetrates"},
     {"linearBulkViscosity", "-", "0", "[0, 1]", "factor of the linear viscous pressure; 0.06 is usual"},
-    {"quadraticBulkViscosity", "-", "0", "[0, 10]", "factor of the quadratic one, in compression; 1.2 is usual"},
+    {"quadraticBulkViscosity", "-", "0", "[0, 10]",
+     "factor of the quadratic one, in compression; 1.2 is usual"},
     {"massScaling", "-", "1", "[1, inf)", "factor on the inertia of all soil"},
-    {"commonTimeStep", "s", "0", "[0, inf)", "step that cells with a smaller stable one are scaled up to; 0 is off"},
+    {"commonTimeStep", "s", "0", "[0, inf)",
+     "step that cells with a smaller stable one are scaled up to; 0 is off"},
     {"inertiaGate", "-", "0.02", "(0, inf)",
      "warn where scaled inertia rho v^2 passes this share of the vertical effective stress at the tip"},
     {"energyGate", "-", "0.05", "(0, inf)", "warn where kinetic energy passes this share of the work done"},
+    {"monitorInterval", "s", "0.005", "[0, inf)", "least time between two records in postProcessing"},
     {"sortInterval", "integer", "50", "[1, 100000]", "steps between two sorts of the points in memory"},
 };
 
 } // namespace
 
 std::span<const Keyword> solutionKeywords() { return keywords; }
+
+double readMonitorInterval(const Dictionary& mpmSolution)
+{
+    InputProblems alreadyReported;
+    return KeywordReader(mpmSolution, keywords, "mpmSolution", alreadyReported).number("monitorInterval");
+}
 
 SolutionControls readSolutionControls(const Dictionary& mpmSolution, bool triangles, InputProblems& problems)
 {
@@ -46,7 +55,8 @@ SolutionControls readSolutionControls(const Dictionary& mpmSolution, bool triang
         controls.locking = SolutionControls::Locking::meanDilatation;
     }
     if (triangles && locking == "meanDilatation") {
-        reader.problem("volumetricLocking", "meanDilatation does nothing on triangles, whose strain is constant",
+        reader.problem("volumetricLocking",
+                       "meanDilatation does nothing on triangles, whose strain is constant",
                        "choose nodalAverage or none");
     }
     const std::string remap = reader.word("velocityRemap");

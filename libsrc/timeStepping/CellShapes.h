@@ -6,9 +6,9 @@
 #include <array>
 #include <cmath>
 
-/// Shapes of background cells as the step kernels see them: shape functions at a place, and the moments of the
-/// strain operator over a filled cell. The weight of the volume
-/// integral is r (axisymmetric, per radian) or 1 (plane strain).
+/// Shapes of background cells as the step kernels see them: shape functions at a place, and the moments of
+/// the strain operator over a filled cell. The weight of the volume integral is r (axisymmetric, per radian)
+/// or 1 (plane strain).
 namespace caisson::shapes {
 
 /// Shape functions of a cell and their gradients at one place.
@@ -29,12 +29,13 @@ struct MeanDilatation
     double bz[corners]; ///< mean of dN/dz
 };
 
-/// Volume moments of the strain operator over a filled cell: index 0 the mean, 1 and 2 the means weighted with
-/// xi - xiCentre and eta - etaCentre (local coordinates in [-1, 1], less their volume means). A stress field
-/// mean + slopeXi (xi - xiCentre) + slopeEta (eta - etaCentre) has the forces
+/// Volume moments of the strain operator over a filled cell: index 0 the mean, 1 and 2 the means weighted
+/// with xi - xiCentre and eta - etaCentre (local coordinates in [-1, 1], less their volume means). A stress
+/// field mean + slopeXi (xi - xiCentre) + slopeEta (eta - etaCentre) has the forces
 ///   f_r = volume sum_m (s_rr gr + s_rz gz + s_tt h),   f_z = volume sum_m (s_zz gz + s_rz gr),
 /// and the mean and slopes of the strain follow from the same coefficients (divided by the moments of inertia
-/// for the slopes): stress and strain are adjoint, so elastic stiffness is symmetric and no mode can gain energy.
+/// for the slopes): stress and strain are adjoint, so elastic stiffness is symmetric and no mode can gain
+/// energy.
 template <int corners>
 struct Moments
 {
@@ -333,7 +334,8 @@ struct Quadrilateral
 
     static double size(const Cell& c)
     {
-        const double area = 0.5 * ((c.r[2] - c.r[0]) * (c.z[3] - c.z[1]) - (c.r[3] - c.r[1]) * (c.z[2] - c.z[0]));
+        const double area =
+            0.5 * ((c.r[2] - c.r[0]) * (c.z[3] - c.z[1]) - (c.r[3] - c.r[1]) * (c.z[2] - c.z[0]));
         const auto middle = [&](int a, int b, int d, int e) {
             return std::hypot(c.r[a] + c.r[b] - c.r[d] - c.r[e], c.z[a] + c.z[b] - c.z[d] - c.z[e]) / 2;
         };

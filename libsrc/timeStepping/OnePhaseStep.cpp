@@ -69,9 +69,13 @@ OnePhaseStep<Shape>::OnePhaseStep(const Scene& scene, State& state, bool axisymm
         waveSpeed_.push_back(std::sqrt(material.law->pWaveModulus() / material.inertialDensity()));
     }
     inside_.assign(cells, 0);
+    // Surfaces are found where constant/polyMesh has the bodies: the same in a restarted run.
     InputProblems problems;
-    for (const RigidBody& body : state.bodies) {
-        surfaces_.push_back(findBodySurface(body, mesh, problems));
+    BackgroundMesh reference = mesh;
+    reference.z = scene.referenceZ;
+    for (RigidBody body : state.bodies) {
+        body.tipLevel = body.initialTipLevel;
+        surfaces_.push_back(findBodySurface(body, reference, problems));
         for (int c = 0; c < cells; ++c) {
             inside_[c] |= surfaces_.back().voidCell[c];
         }
@@ -177,7 +181,8 @@ void OnePhaseStep<Shape>::classifyCells(State& state)
             for (const int* p = pointCells_.begin(c); p != pointCells_.end(c); ++p) {
                 volume += state.points.volume[*p];
             }
-            filled = volume > (state.filled[c] ? leastFill : leastFill + fillHysteresis) * dilatation_[c].volume;
+            filled =
+                volume > (state.filled[c] ? leastFill : leastFill + fillHysteresis) * dilatation_[c].volume;
         }
         state.filled[c] = filled;
     }
@@ -206,7 +211,8 @@ void OnePhaseStep<Shape>::scaleInertia(const State& state)
         const double speed = fastestWave(state, c);
         const double own = Shape::size(cells_[c]) / speed * std::sqrt(scene_.controls.massScaling);
         const double wanted = scene_.controls.commonTimeStep;
-        inertiaScale_[c] = scene_.controls.massScaling * (own < wanted ? (wanted / own) * (wanted / own) : 1.0);
+        inertiaScale_[c] =
+            scene_.controls.massScaling * (own < wanted ? (wanted / own) * (wanted / own) : 1.0);
     }
 }
 
@@ -232,7 +238,7 @@ StableStep OnePhaseStep<Shape>::stableStep(const State& state) const
 }
 
 template <class Shape>
-CellCounts OnePhaseStep<Shape>::cellCounts() const
+CellCounts OnePhaseStep<Shape>::cellCounts(const State& state) const
 {
     CellCounts counts;
     for (std::size_t c = 0; c < cells_.size(); ++c) {
@@ -240,6 +246,8 @@ CellCounts OnePhaseStep<Shape>::cellCounts() const
             ++counts.inside;
         } else if (!occupied_[c]) {
             ++counts.empty;
+        } else if (state.filled[c]) {
+            ++counts.filled;
         } else {
             ++counts.partial;
         }
@@ -254,7 +262,8 @@ std::string OnePhaseStep<Shape>::description() const
     std::string words = "one-phase, ";
     words += axisymmetric_ ? "axisymmetric" : "plane strain";
     words += corners == 3 ? ", triangles" : ", quadrilaterals";
-    words += controls.integration == SolutionControls::Integration::mixed ? ", mixed integration" : ", points";
+    words +=
+        controls.integration == SolutionControls::Integration::mixed ? ", mixed integration" : ", points";
     words += controls.locking == SolutionControls::Locking::none             ? ""
              : controls.locking == SolutionControls::Locking::meanDilatation ? ", mean dilatation"
                                                                              : ", nodal dilatation";
@@ -266,10 +275,14 @@ std::string OnePhaseStep<Shape>::description() const
 template <class Shape>
 void OnePhaseStep<Shape>::advance(State& state, double dt)
 {
+    scaleInertia(state);
+    if (state.step == 0) {
+        staggerStrain(state, dt);
+    }
     for (std::size_t b = 0; b < state.bodies.size(); ++b) {
         state.bodies[b].velocity = state.bodies[b].prescribedVelocity(state.time + dt);
+        state.reactions[b].duration += dt;
     }
-    scaleInertia(state);
     mapToNodes(state);
     solveNodes(state, dt);
     mapToPoints(state, dt);
@@ -279,6 +292,35 @@ void OnePhaseStep<Shape>::advance(State& state, double dt)
     state.time += dt;
     state.timeStep = dt;
     ++state.step;
+}
+
+/// Stresses are half a step ahead of the velocities that they accelerate (leap-frog). At the start both are
+/// given at the same time: soil that moves then is strained by half a step first, without which the phase of
+/// every vibration is off by half a step and the whole scheme first order in time.
+template <class Shape>
+void OnePhaseStep<Shape>::staggerStrain(State& state, double dt)
+{
+    mapToNodes(state);
+    solveNodes(state, 0);
+    bool moving = false;
+    for (const int i : activeNodes_) {
+        moving = moving || nodes_[i].vr != 0 || nodes_[i].vz != 0;
+        nodes_[i].placeVr = nodes_[i].placeVz = 0; // places stay
+    }
+    for (BodyReaction& reaction : state.reactions) {
+        reaction.work = 0;
+        reaction.restartCollection();
+    }
+    if (!moving) {
+        return;
+    }
+    if (scene_.controls.locking == SolutionControls::Locking::nodalAverage) {
+        averageDilatationAtNodes();
+    }
+    for (const int c : activeCells_) {
+        mapCellToPoints<false, true>(state, 0.5 * dt, c);
+    }
+    updateStress(state);
 }
 
 template <class Shape>
@@ -296,14 +338,15 @@ void OnePhaseStep<Shape>::mapCellToNodes(State& state, int c)
         const int material = points.material[*first];
         const double rate = state.cellDivergence[c];
         const double size = Shape::size(cell);
-        viscousStress = density_[material] * size * scene_.controls.linearBulkViscosity * waveSpeed_[material] * rate;
+        viscousStress =
+            density_[material] * size * scene_.controls.linearBulkViscosity * waveSpeed_[material] * rate;
         if (rate < 0) {
             const double quadratic = scene_.controls.quadraticBulkViscosity * size * rate;
             viscousStress -= density_[material] * quadratic * quadratic;
         }
     }
 
-    const shapes::Moments<corners> m = Shape::moments(cell);
+    const shapes::Moments<corners> moments = Shape::moments(cell);
     double mass[corners] = {};
     double momentumR[corners] = {};
     double momentumZ[corners] = {};
@@ -356,7 +399,7 @@ void OnePhaseStep<Shape>::mapCellToNodes(State& state, int c)
             }
         }
         const double inverse = 1 / w;
-        fullness_[c] = m.volume * inverse;
+        fullness_[c] = moments.volume * inverse;
         for (int k = 0; k < corners; ++k) {
             forceR[k] *= fullness_[c];
             forceZ[k] *= fullness_[c];
@@ -365,19 +408,24 @@ void OnePhaseStep<Shape>::mapCellToNodes(State& state, int c)
         for (int j = 0; j < 4; ++j) {
             stress[j] = s[j] * inverse + (j < 3 ? viscousStress : 0);
         }
-        const auto addForces = [&](int moment, const double (&sigma)[4]) {
+        const auto addForces = [&](int moment, const double(&sigma)[4]) {
             for (int k = 0; k < corners; ++k) {
-                forceR[k] -= m.volume * (sigma[0] * m.gr[moment][k] + sigma[3] * m.gz[moment][k] +
-                                         sigma[2] * m.h[moment][k]);
-                forceZ[k] -= m.volume * (sigma[1] * m.gz[moment][k] + sigma[3] * m.gr[moment][k]);
+                forceR[k] -=
+                    moments.volume * (sigma[0] * moments.gr[moment][k] + sigma[3] * moments.gz[moment][k] +
+                                      sigma[2] * moments.h[moment][k]);
+                forceZ[k] -=
+                    moments.volume * (sigma[1] * moments.gz[moment][k] + sigma[3] * moments.gr[moment][k]);
             }
         };
         if constexpr (corners == 4) {
-            // What varies over a cell at rest is known from its weight, wherever the points are: only the rest
-            // is taken from them.
+            // What varies over a cell at rest is known from its weight, wherever the points are: only the
+            // rest is taken from them.
             const int material = points.material[*first];
             const auto [riseXi, riseEta] = Shape::heightSlopes(cell);
-            const double weight = -scene_.gravity[1] * gravityShare_[material] * density_[material];
+            const double fullWeight = -scene_.gravity[1] * gravityShare_[material] * density_[material];
+            const double halfRise = std::max(std::abs(riseXi), std::abs(riseEta));
+            // Soil that carries less than half a cell of itself is not at rest.
+            const double weight = std::clamp(-stress[1] / halfRise, 0.0, std::max(fullWeight, 0.0));
             const double ratio = stress[1] < 0 ? std::clamp(stress[0] / stress[1], 0.0, 1.0) : 0.0;
             const double known[4] = {ratio * weight, weight, ratio * weight, 0};
             const double x = wx * inverse;
@@ -441,7 +489,8 @@ void OnePhaseStep<Shape>::mapCellToNodes(State& state, int c)
                 }
             }
             for (int k = 0; k < corners; ++k) {
-                forceR[k] -= v * (stress[0] * values.dr[k] + stress[3] * values.dz[k] + stress[2] * values.N[k] * inverseR);
+                forceR[k] -= v * (stress[0] * values.dr[k] + stress[3] * values.dz[k] +
+                                  stress[2] * values.N[k] * inverseR);
                 forceZ[k] -= v * (stress[1] * values.dz[k] + stress[3] * values.dr[k]);
             }
         }
@@ -455,11 +504,11 @@ void OnePhaseStep<Shape>::mapCellToNodes(State& state, int c)
     }
 
     const double inertia = inertiaScale_[c] * fullness_[c];
-    const double fullMass = inertiaScale_[c] * density_[points.material[*first]] * m.volume;
+    const double fullMass = inertiaScale_[c] * density_[points.material[*first]] * moments.volume;
     Corner* const out = &cornerSums_[c * corners];
     for (int k = 0; k < corners; ++k) {
-        out[k] = {inertia * mass[k], inertia * momentumR[k], inertia * momentumZ[k],
-                  forceR[k],         forceZ[k],              fullMass * m.n[k]};
+        out[k] = {inertia * mass[k], inertia * momentumR[k], inertia * momentumZ[k], forceR[k],
+                  forceZ[k],         fullMass * moments.n[k]};
     }
 }
 
@@ -567,12 +616,16 @@ void OnePhaseStep<Shape>::applyContact(State& state, double dt, bool remapped)
     for (std::size_t b = 0; b < state.bodies.size(); ++b) {
         const RigidBody& body = state.bodies[b];
         BodyReaction& reaction = state.reactions[b];
+        if (body.adhesion > 0) {
+            updateAreas(surfaces_[b], state.mesh);
+        }
         for (const SurfaceNode& contact : surfaces_[b].nodes) {
             Node& node = nodes_[contact.node];
             if (node.mass <= 0) {
                 continue;
             }
-            const auto touch = [&](const std::array<double, 2>& n, SurfacePart part, double bodyVz, double area) {
+            const auto touch = [&](const std::array<double, 2>& n, SurfacePart part, double bodyVz,
+                                   double area) {
                 const double slipR = node.vr;
                 const double slipZ = node.vz - bodyVz;
                 const double approach = slipR * n[0] + slipZ * n[1];
@@ -608,20 +661,14 @@ void OnePhaseStep<Shape>::applyContact(State& state, double dt, bool remapped)
                     touch(contact.normal[f], contact.part[f], body.velocity, contact.area[f]);
                 }
             } else if (body.tipCorner == TipCorner::rounded) {
-                std::array<double, 2> n{};
-                for (int f = 0; f < 2; ++f) {
-                    n[0] += contact.area[f] * contact.normal[f][0];
-                    n[1] += contact.area[f] * contact.normal[f][1];
-                }
-                const double length = std::hypot(n[0], n[1]);
-                n = {n[0] / length, n[1] / length};
-                touch(n, contact.part[0], body.velocity, contact.area[0]);
+                touch(contact.roundedNormal, contact.part[0], body.velocity, contact.area[0]);
             } else {
                 const double w = contact.tipShare;
                 const double besideVz = contact.beside >= 0 && nodes_[contact.beside].mass > 0
                                             ? nodes_[contact.beside].vz
                                             : body.velocity;
-                touch(contact.normal[0], contact.part[0], w * body.velocity + (1 - w) * besideVz, contact.area[0]);
+                touch(contact.normal[0], contact.part[0], w * body.velocity + (1 - w) * besideVz,
+                      contact.area[0]);
             }
         }
     }
@@ -654,7 +701,8 @@ void OnePhaseStep<Shape>::mapCellToPoints(State& state, double dt, int c)
     }
 
     double rate = 0; // dilatation rate shared by the points of the cell
-    // Filled cells: mean and slopes of the velocity gradient (rr, zz, hoop, v_r,z, v_z,r) about the points' centre.
+    // Filled cells: mean and slopes of the velocity gradient (rr, zz, hoop, v_r,z, v_z,r) about the points'
+    // centre.
     double gradient[3][5] = {};
     double centreXi = 0;
     double centreEta = 0;
@@ -729,7 +777,9 @@ void OnePhaseStep<Shape>::mapCellToPoints(State& state, double dt, int c)
                     x = xi - centreXi;
                     y = eta - centreEta;
                 }
-                const auto at = [&](int j) { return gradient[0][j] + x * gradient[1][j] + y * gradient[2][j]; };
+                const auto at = [&](int j) {
+                    return gradient[0][j] + x * gradient[1][j] + y * gradient[2][j];
+                };
                 rr = at(0);
                 zz = at(1);
                 hoop = at(2);
@@ -963,10 +1013,13 @@ void OnePhaseStep<Shape>::relocate(State& state)
                 }
             }
             if (found < 0) {
-                throw InputError("the run", {InputProblem{
-                    {}, text("material point %d left the mesh at r = %.6g m, z = %.6g m (t = %.6g s)", points.id[p],
-                             points.r[p], points.z[p], state.time),
-                    "extend the mesh there, or hold the soil with a boundary condition"}});
+                throw InputError(
+                    "the run",
+                    {InputProblem{
+                        {},
+                        text("material point %d left the mesh at r = %.6g m, z = %.6g m (t = %.6g s)",
+                             points.id[p], points.r[p], points.z[p], state.time),
+                        "extend the mesh there, or hold the soil with a boundary condition"}});
             }
             if (found != c) {
                 points.cell[p] = found;
@@ -987,6 +1040,33 @@ void OnePhaseStep<Shape>::relocate(State& state)
         }
     }
     classifyCells(state);
+}
+
+template <class Shape>
+std::vector<std::array<double, 2>> OnePhaseStep<Shape>::nodalVelocities(const State& state) const
+{
+    const MaterialPoints& points = state.points;
+    std::vector<std::array<double, 2>> momentum(state.mesh.nodes());
+    std::vector<double> mass(state.mesh.nodes(), 0);
+    Values values;
+    for (std::size_t p = 0; p < points.size(); ++p) {
+        const int c = points.cell[p];
+        Shape::evaluate(cells_[c], points.r[p], points.z[p], values);
+        for (int k = 0; k < corners; ++k) {
+            const int i = cellNodes_[c * corners + k];
+            const double m = values.N[k] * points.mass[p];
+            mass[i] += m;
+            momentum[i][0] += m * points.vr[p];
+            momentum[i][1] += m * points.vz[p];
+        }
+    }
+    for (std::size_t i = 0; i < mass.size(); ++i) {
+        if (mass[i] > 0) {
+            momentum[i][0] /= mass[i];
+            momentum[i][1] /= mass[i];
+        }
+    }
+    return momentum;
 }
 
 template class OnePhaseStep<shapes::Rectangle<true>>;

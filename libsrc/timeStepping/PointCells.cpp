@@ -10,7 +10,8 @@ void PointCells::sort(MaterialPoints& points, int cells)
     std::vector<int> order(points.size());
     std::iota(order.begin(), order.end(), 0);
     std::ranges::sort(order, [&points](int a, int b) {
-        return points.cell[a] != points.cell[b] ? points.cell[a] < points.cell[b] : points.id[a] < points.id[b];
+        return points.cell[a] != points.cell[b] ? points.cell[a] < points.cell[b]
+                                                : points.id[a] < points.id[b];
     });
     points.reorder(order);
     findRuns(points);

@@ -6,8 +6,8 @@
 
 namespace caisson {
 
-/// Which points are in which cell: those of cell c are points(c)[0 .. count(c)-1]. Between two physical sorts the
-/// storage order stays and only the index moves.
+/// Which points are in which cell: those of cell c are points(c)[0 .. count(c)-1]. Between two physical sorts
+/// the storage order stays and only the index moves.
 class PointCells
 {
 public:

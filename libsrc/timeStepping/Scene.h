@@ -16,26 +16,27 @@ struct SolutionControls
     /// mixed: cells filled with soil are integrated with their own volume [Jassim, Stolle & Vermeer 2013],
     /// the others at their points; points: all at their points.
     enum class Integration { mixed, points };
-    /// Treatment of volumetric locking: mean dilatation of a quadrilateral [Hughes 1980], or volumetric strain
-    /// averaged at the nodes of triangles [Detournay & Dzik 2006].
+    /// Treatment of volumetric locking: mean dilatation of a quadrilateral [Hughes 1980], or volumetric
+    /// strain averaged at the nodes of triangles [Detournay & Dzik 2006].
     enum class Locking { none, meanDilatation, nodalAverage };
     /// Nodes whose velocity is mapped again from the points before strains are taken from it: none, those of
-    /// loosely filled cells and free surfaces, whose masses may be small, or all [Sulsky, Zhou & Schreyer 1995].
+    /// loosely filled cells and free surfaces, whose masses may be small, or all [Sulsky, Zhou & Schreyer
+    /// 1995].
     enum class Remap { none, loose, all };
 
     Integration integration = Integration::mixed;
     Locking locking = Locking::meanDilatation;
     Remap remap = Remap::loose;
-    double flipShare = 1;          ///< share of the FLIP velocity update per step [-]
-    double picTime = 0;            ///< time over which velocities relax to the PIC ones [s]; 0: never
-    double localDamping = 0;       ///< share of the out-of-balance force [-]
+    double flipShare = 1;              ///< share of the FLIP velocity update per step [-]
+    double picTime = 0;                ///< time over which velocities relax to the PIC ones [s]; 0: never
+    double localDamping = 0;           ///< share of the out-of-balance force [-]
     double linearBulkViscosity = 0;    ///< [-]
     double quadraticBulkViscosity = 0; ///< [-]
-    double massScaling = 1;        ///< factor on the inertia of all soil [-]
-    double commonTimeStep = 0;     ///< step that cells are scaled up to [s]; 0: none
-    double inertiaGate = 0.02;     ///< of scaled rho v^2 over the vertical effective stress at the tip [-]
-    double energyGate = 0.05;      ///< of kinetic energy over work done [-]
-    int sortInterval = 50;         ///< steps between physical sorts of the points
+    double massScaling = 1;            ///< factor on the inertia of all soil [-]
+    double commonTimeStep = 0;         ///< step that cells are scaled up to [s]; 0: none
+    double inertiaGate = 0.02; ///< of scaled rho v^2 over the vertical effective stress at the tip [-]
+    double energyGate = 0.05;  ///< of kinetic energy over work done [-]
+    int sortInterval = 50;     ///< steps between physical sorts of the points
 };
 
 /// All that does not change while a case runs. Plain, validated data.
@@ -45,7 +46,7 @@ struct Scene
     std::array<double, 2> gravity{0, 0}; ///< [m/s2]
     VelocityConditions conditions;
     MeshMotion motion;
-    int movingBody = -1; ///< index of the body that the mesh follows, or -1
+    int movingBody = -1;            ///< index of the body that the mesh follows, or -1
     std::vector<double> referenceZ; ///< node heights of constant/polyMesh [m]
     SolutionControls controls;
 };
@@ -56,7 +57,16 @@ struct BodyReaction
 {
     std::array<double, surfaceParts> verticalImpulse{};
     std::array<double, surfaceParts> radialImpulse{};
-    double work = 0; ///< done by the body on the soil since the start [J/rad or J/m]
+    double duration = 0; ///< of the collection [s]
+    double work = 0;     ///< done by the body on the soil since the start [J/rad or J/m]
+
+    /// Forgets what was collected; the work stays.
+    void restartCollection()
+    {
+        verticalImpulse = {};
+        radialImpulse = {};
+        duration = 0;
+    }
 };
 
 /// Everything that changes with time, and nothing else that matters: writing it is a complete restart.

@@ -20,8 +20,8 @@ Energies sumEnergies(const Scene& scene, const State& state);
 /// What limits the time step.
 struct StableStep
 {
-    double step = 0; ///< [s]
-    int cell = -1;   ///< the cell that limits it
+    double step = 0;                ///< [s]
+    int cell = -1;                  ///< the cell that limits it
     double waveSpeed = 0, size = 0; ///< there [m/s], [m]
 };
 
@@ -42,10 +42,10 @@ public:
     /// Rebuilds what is not state (order of the points, lists) from the state: at the start and after every
     /// write, so that a restart sees the same.
     virtual void rebuild(State& state) = 0;
-    [[nodiscard]] virtual CellCounts cellCounts() const = 0;
+    [[nodiscard]] virtual CellCounts cellCounts(const State& state) const = 0;
     [[nodiscard]] virtual std::string description() const = 0; ///< of the kernel chosen, for the log
-    /// Largest |v| dt/h over the cells in the last step: the convective Courant number.
-    [[nodiscard]] virtual double convectiveCourant() const = 0;
+    /// Velocity of the soil at the nodes of the mesh [m/s], mapped from the points; for output.
+    [[nodiscard]] virtual std::vector<std::array<double, 2>> nodalVelocities(const State& state) const = 0;
 };
 
 /// Chooses the compiled kernel for a scene (geometry, kind of cells) and prepares the state.

@@ -65,8 +65,10 @@ void Simulation::fill(int material, int n, int m, const std::function<bool(doubl
             const double dz = (z[2] - z[0]) / m;
             for (int j = 0; j < m; ++j) {
                 for (int i = 0; i < n; ++i) {
-                    const double pr = r[0] + (i + 0.5) * dr;
-                    add(c, pr, z[0] + (j + 0.5) * dz, dr * dz * (axisymmetric ? pr : 1));
+                    // volume and centroid of the part of the cell that the point stands for
+                    const double middle = r[0] + (i + 0.5) * dr;
+                    const double pr = axisymmetric ? middle + dr * dr / (12 * middle) : middle;
+                    add(c, pr, z[0] + (j + 0.5) * dz, dr * dz * (axisymmetric ? middle : 1));
                 }
             }
         } else {
@@ -80,8 +82,7 @@ void Simulation::fill(int material, int n, int m, const std::function<bool(doubl
                 weight += axisymmetric ? places.back()[0] : 1;
             }
             for (const auto& place : places) {
-                add(c, place[0], place[1],
-                    cellVolume(mesh, c) * (axisymmetric ? place[0] : 1) / weight);
+                add(c, place[0], place[1], cellVolume(mesh, c) * (axisymmetric ? place[0] : 1) / weight);
             }
         }
     }

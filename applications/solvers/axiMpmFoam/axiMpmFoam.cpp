@@ -1,0 +1,155 @@
+// axiMpmFoam: installation of caissons and other offshore foundations by the material point method.
+//
+// Usage: axiMpmFoam [-case <directory>] [-dry-run]
+
+#include "Plan.h"
+#include "RunOutput.h"
+#include "case/FileIO.h"
+#include "case/Log.h"
+#include "case/RunTime.h"
+#include "dictionary/Text.h"
+#include "scene/CaseScene.h"
+
+#include <boost/program_options.hpp>
+
+#include <cmath>
+#include <iostream>
+
+namespace {
+
+using namespace caisson;
+namespace options = boost::program_options;
+
+/// Fixed steps are refused where they are longer than the stable one.
+void checkTimeStep(const RunTime& runTime, double deltaT, const StableStep& stable)
+{
+    if (deltaT <= stable.step) {
+        return;
+    }
+    throw InputError("the run",
+                     {{{"system/controlDict", 0},
+                       text("deltaT %.4g s is longer than the stable step %.4g s (cell %d: size %.4g m, "
+                            "wave speed %.4g m/s) at t = %.6g s",
+                            deltaT, stable.step, stable.cell, stable.size, stable.waveSpeed, runTime.time()),
+                       "set adjustTimeStep yes, or a smaller deltaT"}});
+}
+
+/// Ends a run that has blown up, before it overwrites a good state.
+void checkFinite(const State& state, const Energies& energies, double waveSpeed)
+{
+    if (std::isfinite(energies.kinetic)) {
+        const MaterialPoints& points = state.points;
+        std::size_t fastest = 0;
+        double speed = -1;
+        for (std::size_t p = 0; p < points.size(); ++p) {
+            const double own = std::hypot(points.vr[p], points.vz[p]);
+            if (own > speed) {
+                speed = own;
+                fastest = p;
+            }
+        }
+        if (speed < waveSpeed) {
+            return;
+        }
+        throw InputError(
+            "the run", {{{},
+                         text("point %d in cell %d at r = %.6g m, z = %.6g m moves at %.4g m/s, faster than "
+                              "sound in the soil: the run has become unstable at t = %.6g s",
+                              points.id[fastest], points.cell[fastest], points.r[fastest], points.z[fastest],
+                              speed, state.time),
+                         "the last written time is good; try a smaller maxCo, or more points per cell"}});
+    }
+    throw InputError("the run",
+                     {{{},
+                       text("velocities are no numbers any more at t = %.6g s", state.time),
+                       "the last written time is good; try a smaller maxCo, or more points per cell"}});
+}
+
+int run(const std::filesystem::path& caseDirectory, bool dryRun, const std::string& commandLine)
+{
+    Log log(std::cout);
+    log.banner(commandLine, caseDirectory);
+    const std::string subject = "case " + caseDirectory.string();
+
+    InputProblems problems;
+    const ControlDict control = readControlDict(caseDirectory, problems);
+    problems.throwIfAny(subject); // the rest depends on the start time
+    RunTime runTime(caseDirectory, control, log);
+    CaseScene caseScene =
+        readCaseScene(caseDirectory, runTime.startDirectory(), runTime.restarted(), runTime.kept, problems);
+    problems.throwIfAny(subject);
+    Scene& scene = caseScene.scene;
+    State& state = caseScene.state;
+    state.time = runTime.time();
+    state.step = runTime.index();
+    const std::unique_ptr<TimeStep> step = makeTimeStep(scene, state);
+    printPlan(log, control, scene, state, *step);
+    checkTimeStep(runTime, control.adjustTimeStep ? 0 : control.deltaT, step->stableStep(state));
+    if (dryRun) {
+        timeSteps(log, control, runTime, scene, state, *step);
+        return 0;
+    }
+
+    RunOutput output(runTime, caseScene, log);
+    while (runTime.running()) {
+        const StableStep stable = step->stableStep(state);
+        const double deltaT = runTime.advance(runTime.wantedDeltaT(stable.step));
+        checkTimeStep(runTime, deltaT, stable);
+        step->advance(state, deltaT);
+        state.time = runTime.time();
+        if (output.logDue() || runTime.writeTime()) {
+            checkFinite(state, sumEnergies(scene, state), stable.waveSpeed);
+        }
+        output.afterStep(state, *step, deltaT / stable.step);
+        if (runTime.writeTime()) {
+            step->rebuild(state);
+            output.write(state, *step);
+        }
+    }
+    output.summary(state);
+    log.end(runTime);
+    return 0;
+}
+
+} // namespace
+
+int main(int argc, char* argv[])
+{
+    options::options_description visible("Options");
+    visible.add_options()("case", options::value<std::string>()->default_value("."), "the case directory")(
+        "dry-run", "read and check everything, print the plan, time a few steps, write nothing")(
+        "help", "print this and exit")("version", "print the version and exit");
+    try {
+        namespace style = options::command_line_style;
+        options::variables_map given;
+        options::store(options::command_line_parser(argc, argv)
+                           .options(visible)
+                           .style((style::unix_style | style::allow_long_disguise) & ~style::allow_guessing)
+                           .run(),
+                       given);
+        if (given.contains("help")) {
+            std::cout
+                << "Usage: axiMpmFoam [-case DIR] [-dry-run]\n\n"
+                   "Runs a case of the material point method: axisymmetric or plane strain, one-phase soil,\n"
+                   "rigid bodies with frictional contact. Cases are OpenFOAM-style directories.\n\n"
+                << visible;
+            return 0;
+        }
+        if (given.contains("version")) {
+            std::cout << "axiMpmFoam " << buildVersion() << '\n';
+            return 0;
+        }
+        std::string commandLine = "axiMpmFoam";
+        for (int i = 1; i < argc; ++i) {
+            commandLine += std::string(" ") + argv[i];
+        }
+        return run(given["case"].as<std::string>(), given.contains("dry-run"), commandLine);
+    } catch (const InputError& error) {
+        std::cerr << error.what() << std::flush;
+    } catch (const options::error& error) {
+        std::cerr << "--> CAISSONFOAM FATAL ERROR : " << error.what() << "\n    see axiMpmFoam -help\n";
+    } catch (const std::exception& error) {
+        std::cerr << "--> CAISSONFOAM FATAL ERROR : " << error.what() << '\n';
+    }
+    return 1;
+}

@@ -1,0 +1,277 @@
+#include "scene/CaseScene.h"
+
+#include "case/FileIO.h"
+#include "materialPoints/CloudConversion.h"
+#include "mesh/CellLocator.h"
+#include "scene/SolutionDict.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace caisson {
+
+namespace {
+
+constexpr Keyword gravityKeywords[] = {
+    {"dimensions", "list", "-", "", "[0 1 -2 0 0 0 0]"},
+    {"value", "vector", "", "", "acceleration of gravity [m/s2]: (0 0 -9.81)"},
+};
+
+/// Reads a dictionary of the case, or nothing (a problem) where it is missing or broken.
+std::unique_ptr<Dictionary> readCaseDictionary(const std::filesystem::path& caseDirectory,
+                                               const std::string& name, const std::string& purpose,
+                                               InputProblems& problems)
+{
+    if (!fileExists(caseDirectory / name)) {
+        problems.add({name, 0}, "is missing", purpose);
+        return nullptr;
+    }
+    try {
+        return std::make_unique<Dictionary>(readDictionary(caseDirectory / name, caseDirectory, name));
+    } catch (const InputError& error) {
+        for (const InputProblem& problem : error.problems()) {
+            problems.add(problem.where, problem.message, problem.hint);
+        }
+        return nullptr;
+    }
+}
+
+std::vector<std::string> constraintPatches(const PolyMesh& polyMesh)
+{
+    std::vector<std::string> names;
+    for (const PolyPatch& patch : polyMesh.patches) {
+        if (patch.type == "wedge" || patch.type == "empty") {
+            names.push_back(patch.name);
+        }
+    }
+    return names;
+}
+
+/// Text of the entries of a patch's condition, for the U of every written time.
+std::string printEntries(const Dictionary& dictionary)
+{
+    std::string text = dictionary.print();
+    std::ranges::replace(text, '\n', ' ');
+    return text;
+}
+
+void readConditions(const std::filesystem::path& caseDirectory, const std::filesystem::path& start,
+                    const PolyMesh& polyMesh, CaseScene& result, InputProblems& problems)
+{
+    const std::string name = fileExists(start / "U") ? (start.filename() / "U").string() : "0/U";
+    const auto fieldU =
+        readCaseDictionary(caseDirectory, name, "the conditions on the solid's velocity per patch", problems);
+    if (!fieldU) {
+        return;
+    }
+    const std::vector<std::string> constraints = constraintPatches(polyMesh);
+    auto conditions = readPatchVelocities(*fieldU, result.state.mesh, constraints, problems);
+    result.scene.conditions = VelocityConditions(result.state.mesh, std::move(conditions));
+    const Dictionary* boundaryField = fieldU->findDictionary("boundaryField");
+    for (const PolyPatch& patch : polyMesh.patches) {
+        const Dictionary* own = boundaryField ? boundaryField->findDictionary(patch.name) : nullptr;
+        result.patchEntries.emplace_back(patch.name, own ? printEntries(*own) : "type " + patch.type + ";");
+    }
+}
+
+void readPoints(const std::filesystem::path& start, CaseScene& result, InputProblems& problems)
+{
+    if (!std::filesystem::exists(start / "lagrangian/materialPoints")) {
+        problems.add({start.filename().string() + "/lagrangian/materialPoints", 0},
+                     "there are no material points", "fill the mesh first: run setMaterialPoints");
+        return;
+    }
+    MaterialPoints& points = result.state.points;
+    points = materialPoints(readCloud(start, "materialPoints"), result.stateNames);
+    const int materials = static_cast<int>(result.scene.materials.size());
+    for (std::size_t p = 0; p < points.size(); ++p) {
+        if (points.material[p] < 0 || points.material[p] >= materials) {
+            problems.add({start.filename().string() + "/lagrangian/materialPoints/material", 0},
+                         "point " + std::to_string(points.id[p]) + " is of material " +
+                             std::to_string(points.material[p]) + ", but constant/materialProperties has " +
+                             std::to_string(materials),
+                         "run setMaterialPoints again after a change of the materials");
+            return;
+        }
+        if (!(points.mass[p] > 0) || !(points.volume[p] > 0)) {
+            problems.add({start.filename().string() + "/lagrangian/materialPoints", 0},
+                         "point " + std::to_string(points.id[p]) + " has no mass or no volume");
+            return;
+        }
+    }
+    // Cells of the file may be of another numbering: what counts is where the points are.
+    const CellLocator locator(result.state.mesh);
+    for (std::size_t p = 0; p < points.size(); ++p) {
+        const int hint = points.cell[p];
+        int cell =
+            hint >= 0 && hint < result.state.mesh.cells() ? locator.walk(points.r[p], points.z[p], hint) : -1;
+        if (cell < 0) {
+            cell = locator.find(points.r[p], points.z[p]);
+        }
+        if (cell < 0) {
+            problems.add({start.filename().string() + "/lagrangian/materialPoints/positions", 0},
+                         "point " + std::to_string(points.id[p]) + " at r = " + std::to_string(points.r[p]) +
+                             " m, z = " + std::to_string(points.z[p]) + " m is outside the mesh");
+            return;
+        }
+        points.cell[p] = cell;
+    }
+}
+
+} // namespace
+
+std::vector<std::string> stateVariableNames(const std::vector<Material>& materials)
+{
+    std::vector<std::string> names;
+    for (const Material& material : materials) {
+        const auto& own = material.law->stateNames();
+        for (std::size_t k = 0; k < own.size(); ++k) {
+            if (k >= names.size()) {
+                names.push_back(own[k]);
+            } else if (names[k].find(own[k]) == std::string::npos) {
+                names[k] += "_" + own[k]; // another law's variable in the same place
+            }
+        }
+    }
+    return names;
+}
+
+std::map<std::string, std::vector<double>> keptNumbers(const State& state)
+{
+    std::map<std::string, std::vector<double>> kept;
+    for (std::size_t b = 0; b < state.bodies.size(); ++b) {
+        const BodyReaction& reaction = state.reactions[b];
+        std::vector<double>& numbers = kept["body_" + state.bodies[b].name];
+        numbers = {state.bodies[b].tipLevel, state.bodies[b].velocity, reaction.work, reaction.duration};
+        numbers.insert(numbers.end(), reaction.verticalImpulse.begin(), reaction.verticalImpulse.end());
+        numbers.insert(numbers.end(), reaction.radialImpulse.begin(), reaction.radialImpulse.end());
+    }
+    return kept;
+}
+
+CaseScene readCaseScene(const std::filesystem::path& caseDirectory, const std::filesystem::path& start,
+                        bool restarted, const std::map<std::string, std::vector<double>>& kept,
+                        InputProblems& problems)
+{
+    CaseScene result;
+    State& state = result.state;
+    Scene& scene = result.scene;
+
+    if (const auto dictionary = readCaseDictionary(caseDirectory, "constant/materialProperties",
+                                                   "one sub-dictionary per material", problems)) {
+        scene.materials = readMaterials(*dictionary, problems);
+        result.stateNames = stateVariableNames(scene.materials);
+        if (scene.materials.empty()) {
+            problems.add({"constant/materialProperties", 0}, "no material",
+                         "one sub-dictionary per material");
+        }
+    }
+    if (const auto dictionary = readCaseDictionary(caseDirectory, "constant/g",
+                                                   "acceleration of gravity: value (0 0 -9.81);", problems)) {
+        const KeywordReader reader(*dictionary, gravityKeywords, "g", problems);
+        const auto value = reader.vector("value");
+        scene.gravity = {value[0], value[2]};
+        if (value[1] != 0) {
+            reader.problem("value", "gravity has a component along y, out of the plane of the model");
+        }
+    }
+    if (fileExists(caseDirectory / "constant/bodies")) {
+        if (const auto dictionary = readCaseDictionary(caseDirectory, "constant/bodies", "", problems)) {
+            state.bodies = readBodies(*dictionary, problems);
+        }
+    }
+    state.reactions.resize(state.bodies.size());
+
+    const PolyMesh polyMesh = readPolyMesh(caseDirectory);
+    InputProblems meshProblems;
+    state.mesh = buildBackgroundMesh(polyMesh, meshProblems);
+    for (const InputProblem& problem : meshProblems.all()) {
+        problems.add(problem.where, problem.message, problem.hint);
+    }
+    if (!meshProblems.empty()) {
+        return result;
+    }
+    scene.referenceZ = state.mesh.z;
+    if (state.mesh.geometry == Geometry::axisymmetric && scene.gravity[0] != 0) {
+        problems.add({"constant/g", 0}, "gravity has a radial component in an axisymmetric case",
+                     "value (0 0 -9.81);");
+    }
+
+    if (const auto dictionary = readCaseDictionary(caseDirectory, "system/mpmSolution",
+                                                   "the scheme and its switches", problems)) {
+        scene.controls = readSolutionControls(*dictionary, state.mesh.corners == 3, problems);
+        result.monitorInterval = readMonitorInterval(*dictionary);
+    }
+    if (fileExists(caseDirectory / "constant/dynamicMeshDict")) {
+        if (const auto dictionary =
+                readCaseDictionary(caseDirectory, "constant/dynamicMeshDict", "", problems)) {
+            scene.motion = readMeshMotion(*dictionary, problems);
+            for (std::size_t b = 0; b < state.bodies.size(); ++b) {
+                if (scene.motion.moves() && state.bodies[b].name == scene.motion.body()) {
+                    scene.movingBody = static_cast<int>(b);
+                }
+            }
+            if (scene.motion.moves() && scene.movingBody < 0) {
+                std::vector<std::string> names;
+                for (const RigidBody& body : state.bodies) {
+                    names.push_back(body.name);
+                }
+                problems.add({"constant/dynamicMeshDict", 0},
+                             "there is no body '" + scene.motion.body() + "'",
+                             suggestion(scene.motion.body(), names, "bodies"));
+            }
+        }
+    }
+    for (std::size_t b = 0; b < state.bodies.size(); ++b) {
+        if (state.bodies[b].penetrationRate && static_cast<int>(b) != scene.movingBody) {
+            problems.add({"constant/bodies", 0},
+                         "body '" + state.bodies[b].name + "' moves, but the mesh does not follow it",
+                         "constant/dynamicMeshDict: type followBody; body " + state.bodies[b].name + "; ...");
+        }
+    }
+    // The mesh must fit the bodies where constant/polyMesh has them.
+    for (const RigidBody& body : state.bodies) {
+        const BodySurface surface = findBodySurface(body, state.mesh, problems);
+        if (surface.nodes.empty() && !body.profile.empty()) {
+            problems.add({"constant/bodies", 0}, "body '" + body.name + "' touches no cell of the mesh",
+                         "its tip is at z = " + std::to_string(body.tipLevel) +
+                             " m: is it outside the mesh?");
+        }
+    }
+    readConditions(caseDirectory, start, polyMesh, result, problems);
+
+    if (restarted) {
+        for (std::size_t b = 0; b < state.bodies.size(); ++b) {
+            const auto found = kept.find("body_" + state.bodies[b].name);
+            if (found == kept.end() || found->second.size() != 4 + 2 * surfaceParts) {
+                problems.add(
+                    {start.filename().string() + "/uniform/time", 0},
+                    "nothing is kept of body '" + state.bodies[b].name + "'",
+                    "the time was written by another version, or the body is new: start from time 0");
+                continue;
+            }
+            BodyReaction& reaction = state.reactions[b];
+            state.bodies[b].tipLevel = found->second[0];
+            state.bodies[b].velocity = found->second[1];
+            reaction.work = found->second[2];
+            reaction.duration = found->second[3];
+            std::copy_n(found->second.begin() + 4, surfaceParts, reaction.verticalImpulse.begin());
+            std::copy_n(found->second.begin() + 4 + surfaceParts, surfaceParts,
+                        reaction.radialImpulse.begin());
+        }
+        if (scene.movingBody >= 0) {
+            const RigidBody& body = state.bodies[scene.movingBody];
+            scene.motion.place(state.mesh, scene.referenceZ, body.tipLevel - body.initialTipLevel);
+        }
+        const NamedField filled = readField(start / "filled", state.mesh.cells());
+        state.filled.resize(state.mesh.cells());
+        std::ranges::transform(filled.values, state.filled.begin(), [](double value) { return value > 0.5; });
+        if (fileExists(start / "dilatationRate")) {
+            state.cellDivergence = readField(start / "dilatationRate", state.mesh.cells()).values;
+        }
+    }
+    readPoints(start, result, problems);
+    return result;
+}
+
+} // namespace caisson

@@ -1,0 +1,266 @@
+#include "mesh/CellLocator.h"
+#include "support/Simulation.h"
+#include "support/StructuredMesh.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+#include <random>
+
+namespace caisson::testing {
+namespace {
+
+constexpr const char* elastic =
+    "law linearElastic; porosity 0.35; solidDensity 2650; liquidDensity 1000; weight dry; "
+    "youngsModulus 1e7; poissonsRatio 0.3;";
+
+std::vector<double> gradedLines(double a, double b, int n, double growth)
+{
+    std::vector<double> lines(1, a);
+    double h = (b - a) * (growth - 1) / (std::pow(growth, n) - 1);
+    for (int i = 0; i < n; ++i, h *= growth) {
+        lines.push_back(lines.back() + h);
+    }
+    lines.back() = b;
+    return lines;
+}
+
+double largestSpeed(const State& state)
+{
+    double speed = 0;
+    for (std::size_t p = 0; p < state.points.size(); ++p) {
+        speed = std::max(speed, std::hypot(state.points.vr[p], state.points.vz[p]));
+    }
+    return speed;
+}
+
+struct Variant
+{
+    const char* name;
+    Geometry geometry;
+    bool triangles;
+};
+
+class EveryKernel : public ::testing::TestWithParam<Variant>
+{
+};
+INSTANTIATE_TEST_SUITE_P(, EveryKernel,
+                         ::testing::Values(Variant{"axisymmetricQuadrilaterals", Geometry::axisymmetric,
+                                                   false},
+                                           Variant{"planeQuadrilaterals", Geometry::planeStrain, false},
+                                           Variant{"axisymmetricTriangles", Geometry::axisymmetric, true},
+                                           Variant{"planeTriangles", Geometry::planeStrain, true}),
+                         [](const auto& variant) { return variant.param.name; });
+
+// V1: a uniform stress that the boundary carries is in equilibrium on any mesh and for any places of the
+// points.
+TEST_P(EveryKernel, patchOfUniformStressStaysAtRest)
+{
+    Simulation simulation;
+    simulation.state.mesh = structuredMesh(gradedLines(0, 2, 7, 1.3), gradedLines(-1, 1, 6, 0.8),
+                                           GetParam().geometry, GetParam().triangles);
+    const int soil = simulation.addMaterial("soil", elastic);
+    simulation.setConditions("left { type slip; } right { type pressure; uniformValue 5e4; } "
+                             "bottom { type slip; } top { type pressure; uniformValue 5e4; }");
+    simulation.fill(soil, GetParam().triangles ? 3 : 2, 2);
+    std::mt19937 random(3); // points anywhere in their cells
+    std::uniform_real_distribution<double> shift(-0.02, 0.02);
+    for (std::size_t p = 0; p < simulation.state.points.size(); ++p) {
+        simulation.state.points.r[p] += shift(random);
+        simulation.state.points.z[p] += shift(random);
+    }
+    const CellLocator locator(simulation.state.mesh);
+    for (std::size_t p = 0; p < simulation.state.points.size(); ++p) {
+        simulation.state.points.cell[p] =
+            locator.find(simulation.state.points.r[p], simulation.state.points.z[p]);
+        ASSERT_GE(simulation.state.points.cell[p], 0);
+    }
+    simulation.setStress([](double, double) { return std::array<double, 4>{-5e4, -5e4, -5e4, 0}; });
+    simulation.start();
+    simulation.run(50 * 0.8 * simulation.step->stableStep(simulation.state).step, 0.8);
+    const double waveSpeed = simulation.step->stableStep(simulation.state).waveSpeed;
+    EXPECT_LT(largestSpeed(simulation.state) / waveSpeed, 1e-12) << "rounding only";
+}
+
+// V20: a free block falls as one piece through a graded mesh, whatever cells it fills on its way.
+TEST_P(EveryKernel, freeFallIsExactAndLeavesNoStress)
+{
+    Simulation simulation;
+    simulation.state.mesh = structuredMesh(evenLines(0, 1, 4), gradedLines(-3, 1, 40, 1.05),
+                                           GetParam().geometry, GetParam().triangles);
+    const int soil = simulation.addMaterial("soil", elastic);
+    simulation.scene.gravity = {0, -10};
+    simulation.setConditions("left { type zeroGradient; } right { type zeroGradient; } bottom { type slip; } "
+                             "top { type zeroGradient; }");
+    simulation.fill(soil, GetParam().triangles ? 3 : 2, 2, [](double, double z) { return z > 0 && z < 0.8; });
+    simulation.start();
+    const double time = 0.6;
+    simulation.run(time, 0.5);
+    const MaterialPoints& points = simulation.state.points;
+    for (std::size_t p = 0; p < points.size(); ++p) {
+        EXPECT_NEAR(points.z[p] - points.initialZ[p], -5 * time * time, 1e-12);
+        EXPECT_NEAR(points.r[p], points.initialR[p], 1e-12);
+        EXPECT_NEAR(points.vz[p], -10 * time, 1e-11);
+        for (const auto& component : points.stress) {
+            EXPECT_LT(std::abs(component[p]), 1e-10 * 1e7);
+        }
+    }
+}
+
+// V23: soil under its own weight stays at rest for ten thousand steps.
+TEST_P(EveryKernel, columnUnderItsWeightStaysAtRest)
+{
+    Simulation simulation;
+    simulation.state.mesh = structuredMesh(evenLines(0, 1, 2), gradedLines(-2, 0.5, 10, 0.9),
+                                           GetParam().geometry, GetParam().triangles);
+    const int soil = simulation.addMaterial("soil", elastic);
+    simulation.scene.gravity = {0, -10};
+    simulation.setConditions(
+        "left { type slip; } right { type slip; } bottom { type slip; } top { type zeroGradient; }");
+    // Filled up to a line of the mesh.
+    double surface = -10;
+    for (const double z : simulation.state.mesh.z) {
+        surface = z < 0.1 ? std::max(surface, z) : surface;
+    }
+    simulation.fill(soil, GetParam().triangles ? 3 : 2, 2, [&](double, double z) { return z < surface; });
+    const double weight = 0.65 * 2650 * 10;
+    simulation.setStress([&](double, double z) {
+        const double vertical = weight * (z - surface);
+        return std::array<double, 4>{0.5 * vertical, vertical, 0.5 * vertical, 0};
+    });
+    simulation.start();
+    const double limit = simulation.step->stableStep(simulation.state).step;
+    simulation.run(10000 * 0.8 * limit, 0.8);
+    // Triangles carry a linear stress only by their means: they settle by what that is off, and ring.
+    const double tolerance = GetParam().triangles ? 5e-3 : 1e-8;
+    EXPECT_LT(largestSpeed(simulation.state), tolerance) << "m/s after ten thousand steps";
+}
+
+// A mode in which opposite corners of a cell move apart must cost energy in a filled quadrilateral.
+TEST(FilledQuadrilateral, resistsTheHourglassMode)
+{
+    for (const auto locking : {SolutionControls::Locking::none, SolutionControls::Locking::meanDilatation}) {
+        Simulation simulation;
+        const int n = 6;
+        simulation.state.mesh = structuredMesh(evenLines(0, 1, n), evenLines(0, 1, n), Geometry::planeStrain);
+        const int soil = simulation.addMaterial("soil", elastic);
+        simulation.setConditions("left { type zeroGradient; } right { type zeroGradient; } bottom { type "
+                                 "zeroGradient; } top { type zeroGradient; }");
+        simulation.fill(soil, 2, 2);
+        simulation.scene.controls.locking = locking;
+        // Velocity at the points that alternates from node to node.
+        const double v0 = 1e-3;
+        simulation.setVelocity([&](double x, double z) {
+            const double wave = std::cos(std::numbers::pi * n * x) * std::cos(std::numbers::pi * n * z);
+            return std::array<double, 2>{v0 * wave, 0};
+        });
+        simulation.start();
+        for (const unsigned char filled : simulation.state.filled) {
+            ASSERT_TRUE(filled);
+        }
+        // The mode's own frequency is of the order of c/h: it must turn round within a few h/c.
+        const double h = 1.0 / n;
+        const double c = simulation.step->stableStep(simulation.state).waveSpeed;
+        double stored = 0;
+        for (int i = 0; i < 20; ++i) {
+            simulation.run(simulation.state.time + 0.1 * h / c, 0.2);
+            double energy = 0;
+            const MaterialPoints& points = simulation.state.points;
+            for (std::size_t p = 0; p < points.size(); ++p) {
+                energy += points.volume[p] * (std::abs(points.stress[0][p]) + std::abs(points.stress[3][p]));
+            }
+            stored = std::max(stored, energy);
+        }
+        // Strains of the order v0/c in a wave of that velocity, moduli of 1e7: without resistance it is zero.
+        EXPECT_GT(stored, 0.02 * 1e7 * v0 / c) << "stress that the mode raises";
+    }
+}
+
+// V18, mildly: a bar that swings in its first mode keeps its energy and period while points cross cells.
+TEST(Bar, keepsItsPeriodAndEnergy)
+{
+    Simulation simulation;
+    const double length = 25;
+    const int n = 26;
+    simulation.state.mesh = structuredMesh(evenLines(0, 1, 1), evenLines(0, 26, n), Geometry::planeStrain);
+    const int soil =
+        simulation.addMaterial("bar", "law linearElastic; porosity 0.5; solidDensity 2; liquidDensity 1; "
+                                      "weight dry; youngsModulus 100; poissonsRatio 0;");
+    simulation.setConditions(
+        "left { type slip; } right { type slip; } bottom { type slip; } top { type zeroGradient; }");
+    simulation.fill(soil, 2, 2, [&](double, double z) { return z < length; });
+    const double wave = std::numbers::pi / (2 * length);
+    const double frequency = wave * std::sqrt(100.0 / 1.0);
+    EXPECT_NEAR(frequency, 0.6283185, 1e-7);
+    const double v0 = 0.1;
+    simulation.setVelocity([&](double, double z) {
+        return std::array<double, 2>{0, v0 * std::sin(wave * z)};
+    });
+    simulation.start();
+    double error = 0, norm = 0;
+    for (int i = 1; i <= 200; ++i) {
+        const double time = i * 0.1;
+        simulation.run(time, 0.5);
+        double momentum = 0, mass = 0;
+        for (std::size_t p = 0; p < simulation.state.points.size(); ++p) {
+            momentum += simulation.state.points.mass[p] * simulation.state.points.vz[p];
+            mass += simulation.state.points.mass[p];
+        }
+        const double exact = v0 / (wave * length) * std::cos(frequency * time);
+        error += std::pow(momentum / mass - exact, 2);
+        norm += exact * exact;
+    }
+    EXPECT_LT(std::sqrt(error / norm), 0.01) << "velocity of the centre of mass over two periods";
+}
+
+// Points that do not move stay where they are, with their stress, however the mesh moves through them.
+TEST(MovingMesh, leavesPointsAtRestAlone)
+{
+    Simulation simulation;
+    simulation.state.mesh =
+        structuredMesh(evenLines(0, 1, 8), evenLines(-2, 0.5, 25), Geometry::axisymmetric);
+    const int soil = simulation.addMaterial("soil", elastic);
+    simulation.setConditions("right { type slip; } bottom { type slip; } top { type zeroGradient; }");
+    simulation.fill(soil, 2, 4, [](double, double z) { return z < 0; });
+    RigidBody body; // above the soil: the mesh follows it, and it touches nothing
+    body.name = "wand";
+    body.profile = profileFromPolygon({{0.5, 0}, {0.75, 0}, {0.75, 1}, {0.5, 1}});
+    body.tipLevel = body.initialTipLevel = 0.1;
+    body.penetrationRate = std::shared_ptr<const Function1>(constantFunction1(-1.0));
+    simulation.state.bodies.push_back(body);
+    simulation.scene.motion = MeshMotion({-1.9, -1.0, -0.8, 0.0}, "wand");
+    simulation.scene.movingBody = 0;
+    simulation.setStress([](double, double) { return std::array<double, 4>{0, 0, 0, 0}; });
+    simulation.start();
+    simulation.run(0.3, 0.5);
+    EXPECT_NEAR(simulation.state.bodies[0].tipLevel, 0.4, 1e-12);
+    const MaterialPoints& points = simulation.state.points;
+    for (std::size_t p = 0; p < points.size(); ++p) {
+        EXPECT_EQ(points.r[p], points.initialR[p]);
+        EXPECT_EQ(points.z[p], points.initialZ[p]);
+        EXPECT_EQ(points.stress[1][p], 0);
+    }
+}
+
+// Momentum of a free body is kept to rounding while no force acts, and its sum of internal forces is zero.
+TEST(FreeBody, keepsItsMomentum)
+{
+    Simulation simulation;
+    simulation.state.mesh = structuredMesh(evenLines(0, 4, 16), evenLines(0, 4, 16), Geometry::planeStrain);
+    const int soil = simulation.addMaterial("soil", elastic);
+    simulation.setConditions("left { type zeroGradient; } right { type zeroGradient; } bottom { type "
+                             "zeroGradient; } top { type zeroGradient; }");
+    simulation.fill(soil, 2, 2, [](double x, double z) { return x > 1 && x < 2 && z > 1 && z < 2; });
+    simulation.setVelocity([](double, double) { return std::array<double, 2>{3, 2}; });
+    simulation.start();
+    const Energies before = sumEnergies(simulation.scene, simulation.state);
+    simulation.run(0.2, 0.5);
+    const Energies after = sumEnergies(simulation.scene, simulation.state);
+    EXPECT_NEAR(after.momentum[0] / before.momentum[0], 1, 1e-12);
+    EXPECT_NEAR(after.momentum[1] / before.momentum[1], 1, 1e-12);
+    EXPECT_NEAR(after.mass / before.mass, 1, 1e-14);
+}
+
+} // namespace
+} // namespace caisson::testing
