@@ -142,7 +142,7 @@ int run(const fs::path& caseDirectory, const fs::path& dictionaryFile)
     } catch (const SuctionLimitReached& limit) {
         printTable(input, stages);
         std::cerr << "\n--> CAISSONFOAM FATAL ERROR : " << limit.what()
-                  << "\n    deepest penetration of method " << input.methodName << ": "
+                  << "\n    deepest penetration by suction: "
                   << greatestPenetration(*input.method, input.site, input.end)
                   << " m\n    lower 'end' in 'penetration', raise the load, or check the soil; no table is "
                      "written\n";
