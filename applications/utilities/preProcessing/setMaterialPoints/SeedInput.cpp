@@ -1,0 +1,129 @@
+#include "SeedInput.h"
+
+#include "case/FileIO.h"
+#include "case/RunTime.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace caisson {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr Keyword gravityKeywords[] = {
+    {"dimensions", "list", "-", "", "[0 1 -2 0 0 0 0]"},
+    {"value", "vector", "", "", "acceleration of gravity [m/s2]: (0 0 -9.81)"},
+};
+
+/// Runs `read`; the problems of an InputError join the others, so that reading goes on with the next file.
+template <typename Read>
+void collect(InputProblems& problems, const Read& read)
+{
+    try {
+        read();
+    } catch (const InputError& error) {
+        for (const InputProblem& problem : error.problems()) {
+            problems.add(problem.where, problem.message, problem.hint);
+        }
+    }
+}
+
+/// The time directory that controlDict starts from. It must be one that no run has written: points that are
+/// filled in afresh do not belong to a later state.
+fs::path findStart(const fs::path& caseDirectory, const ControlDict& control, InputProblems& problems)
+{
+    const SourceLocation where = {"system/controlDict", 0};
+    const std::vector<TimeDirectory> times = timeDirectories(caseDirectory);
+    const TimeDirectory* start = nullptr;
+    for (const TimeDirectory& time : times) {
+        const bool wanted =
+            control.startFrom == StartFrom::latestTime ||
+            (control.startFrom == StartFrom::firstTime && start == nullptr) ||
+            (control.startFrom == StartFrom::startTime &&
+             std::abs(time.value - control.startTime) <= 1e-6 * std::max(std::abs(control.startTime), 1e-3));
+        start = wanted ? &time : start;
+    }
+    if (start == nullptr) {
+        const bool original = fs::is_directory(caseDirectory / "0.orig");
+        problems.add(where, "there is no time directory to start from",
+                     original ? "copy 0.orig to 0 (restore0Dir in Allrun)"
+                              : "the initial and boundary conditions go into the folder 0");
+        return {};
+    }
+    if (fileExists(caseDirectory / start->name / "uniform/time")) {
+        problems.add(where,
+                     "the time directory " + start->name +
+                         " to start from was written by a run, which goes on "
+                         "with its own material points",
+                     "remove the results (Allclean), or set startFrom startTime; startTime 0;");
+    }
+    return caseDirectory / start->name;
+}
+
+std::array<double, 2> readGravity(const Dictionary& dictionary, const BackgroundMesh& mesh,
+                                  InputProblems& problems)
+{
+    const KeywordReader reader(dictionary, gravityKeywords, "g", problems);
+    const std::array<double, 3> g = reader.vector("value");
+    if (g[1] != 0 || (g[0] != 0 && mesh.geometry == Geometry::axisymmetric)) {
+        reader.problem("value", "gravity must lie along z (in plane strain: in the plane of x and z)",
+                       "value (0 0 -9.81);");
+    }
+    return {g[0], g[2]};
+}
+
+} // namespace
+
+std::span<const Keyword> setMaterialPointsKeywords()
+{
+    static constexpr Keyword table[] = {
+        {"regions", "list", "", "",
+         "what is filled: ( { type box; ... } ... ); where they overlap the later wins"},
+        {"initialState", "dictionary", "", "", "stress of the points at the start"},
+    };
+    return table;
+}
+
+SeedInput readSeedInput(const fs::path& caseDirectory, const fs::path& dictionaryFile)
+{
+    SeedInput input;
+    InputProblems problems;
+    const auto dictionary = [&](const fs::path& file) {
+        const fs::path path = file.is_absolute() ? file : caseDirectory / file;
+        return readDictionary(path, caseDirectory, file.string());
+    };
+    collect(problems, [&] {
+        input.control = readControlDict(caseDirectory, problems);
+        input.startDirectory = findStart(caseDirectory, input.control, problems);
+    });
+    collect(problems, [&] { input.mesh = buildBackgroundMesh(readPolyMesh(caseDirectory), problems); });
+    const bool meshIsThere = !input.mesh.nodeCells.start.empty();
+    collect(problems,
+            [&] { input.materials = readMaterials(dictionary("constant/materialProperties"), problems); });
+    collect(problems, [&] { input.gravity = readGravity(dictionary("constant/g"), input.mesh, problems); });
+    if (fileExists(caseDirectory / "constant/bodies")) {
+        collect(problems, [&] { input.bodies = readBodies(dictionary("constant/bodies"), problems); });
+    }
+    collect(problems, [&] {
+        const Dictionary own = dictionary(dictionaryFile);
+        const KeywordReader reader(own, setMaterialPointsKeywords(), dictionaryFile.filename().string(),
+                                   problems);
+        const std::vector<Dictionary> regions = reader.dictionaries("regions");
+        if (regions.empty() && reader.has("regions")) {
+            reader.problem("regions", "there is no region to fill",
+                           "regions ( { type all; material sand; } );");
+        }
+        if (meshIsThere) { // without a mesh every cellZone and pointsPerCell would look wrong
+            input.regions = readSeedRegions(regions, input.mesh, input.materials, problems);
+        }
+        if (const Dictionary* state = reader.dictionary("initialState")) {
+            input.initialState = readInitialState(*state, problems);
+        }
+    });
+    problems.throwIfAny("case " + caseDirectory.string());
+    return input;
+}
+
+} // namespace caisson

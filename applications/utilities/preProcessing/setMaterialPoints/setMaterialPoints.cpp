@@ -1,0 +1,136 @@
+// setMaterialPoints: fills the mesh with material points and sets their initial stress.
+//
+// Usage: setMaterialPoints [-case <directory>] [-dict <file>] [-dry-run]
+//
+// Reads system/setMaterialPointsDict, constant/polyMesh, constant/materialProperties, constant/g and, where
+// it is there, constant/bodies: cells within a body stay empty. Writes lagrangian/materialPoints in the time
+// directory that system/controlDict starts from.
+
+#include "SeedInput.h"
+#include "case/FoamFile.h"
+#include "dictionary/Text.h"
+#include "materialPoints/CloudConversion.h"
+#include "scene/CaseScene.h"
+
+#include <boost/program_options.hpp>
+
+#include <algorithm>
+#include <iostream>
+#include <numbers>
+
+namespace {
+
+using namespace caisson;
+namespace fs = std::filesystem;
+
+/// "12 points, volume 3 m3, mass 4 kg" of the whole body of revolution, or per metre of thickness.
+std::string amounts(const BackgroundMesh& mesh, std::size_t points, double volume, double mass)
+{
+    const bool axisymmetric = mesh.geometry == Geometry::axisymmetric;
+    const double whole = axisymmetric ? 2 * std::numbers::pi : 1;
+    return text("%zu points, volume %.9g %s, mass %.9g %s", points, whole * volume,
+                axisymmetric ? "m3" : "m3/m", whole * mass, axisymmetric ? "kg" : "kg/m");
+}
+
+void printRegions(const SeedInput& input, const SeededPoints& seeded)
+{
+    const double whole = input.mesh.geometry == Geometry::axisymmetric ? 2 * std::numbers::pi : 1;
+    SeededRegion total;
+    for (std::size_t i = 0; i < seeded.regions.size(); ++i) {
+        const SeedRegion& region = input.regions[i];
+        const SeededRegion& amount = seeded.regions[i];
+        std::cout << "Region " << i + 1 << " (" << region.type << ", material "
+                  << input.materials[region.material].name
+                  << "): " << amounts(input.mesh, amount.points, amount.volume, amount.mass)
+                  << text("\n    exact volume %.9g, error %.3g %%", whole * amount.exactVolume,
+                          100 * (amount.coveredVolume / amount.exactVolume - 1));
+        if (amount.volume < amount.coveredVolume * (1 - 1e-9)) {
+            std::cout << text("; later regions take %.9g of it",
+                              whole * (amount.coveredVolume - amount.volume));
+        }
+        std::cout << '\n';
+        total.points += amount.points;
+        total.volume += amount.volume;
+        total.mass += amount.mass;
+    }
+    std::cout << "Total: " << amounts(input.mesh, total.points, total.volume, total.mass) << '\n';
+}
+
+void printStress(const MaterialPoints& points)
+{
+    static constexpr const char* names[] = {"rr", "zz", "tt", "rz"};
+    std::cout << "Initial effective stress [Pa]:";
+    for (std::size_t k = 0; k < points.stress.size(); ++k) {
+        const auto [low, high] = std::ranges::minmax(points.stress[k]);
+        std::cout << text("%s %s %.6g to %.6g", k == 0 ? "" : ",", names[k], low, high);
+    }
+    std::cout << '\n';
+}
+
+void run(const fs::path& caseDirectory, const fs::path& dictionaryFile, bool dryRun)
+{
+    const SeedInput input = readSeedInput(caseDirectory, dictionaryFile);
+    const BackgroundMesh& mesh = input.mesh;
+    std::cout << "Mesh: " << mesh.cells() << (mesh.corners == 4 ? " quadrilaterals, " : " triangles, ")
+              << mesh.nodes() << " nodes, "
+              << (mesh.geometry == Geometry::axisymmetric ? "axisymmetric" : "plane strain") << '\n';
+
+    InputProblems problems;
+    const auto insideBody = [&](double r, double z) {
+        return std::ranges::any_of(input.bodies, [&](const RigidBody& body) { return body.contains(r, z); });
+    };
+    SeededPoints seeded = seedPoints(mesh, input.regions, input.materials, insideBody, problems);
+    setInitialStress(seeded, input.materials, input.initialState, input.gravity, problems);
+    problems.throwIfAny("case " + caseDirectory.string());
+    printRegions(input, seeded);
+    printStress(seeded.points);
+
+    const fs::path folder = input.startDirectory / "lagrangian/materialPoints";
+    if (dryRun) {
+        std::cout << "Dry run: nothing is written\n";
+    } else {
+        fs::remove_all(folder); // fields of earlier points, of other laws perhaps
+        writeCloud(input.startDirectory, cloud(seeded.points, stateVariableNames(input.materials)),
+                   input.control.writeStyle);
+        std::cout << "Written: " << fs::relative(folder, caseDirectory).string() << '\n';
+    }
+    std::cout << "\nEnd\n";
+}
+
+} // namespace
+
+int main(int argc, char** argv)
+{
+    namespace po = boost::program_options;
+    po::options_description options("Options");
+    options.add_options()("case", po::value<std::string>()->default_value("."), "case directory")(
+        "dict", po::value<std::string>()->default_value("system/setMaterialPointsDict"),
+        "dictionary, relative to the case")("dry-run", "read, check and report, but write nothing")(
+        "help", "print this and exit");
+    try {
+        using namespace po::command_line_style;
+        po::variables_map values;
+        po::store(po::command_line_parser(argc, argv)
+                      .options(options)
+                      .style((unix_style & ~allow_guessing) | allow_long_disguise)
+                      .positional({})
+                      .run(),
+                  values);
+        if (values.contains("help")) {
+            std::cout << "Usage: setMaterialPoints [-case DIR] [-dict FILE] [-dry-run]\n\n"
+                         "Fills the mesh with material points and sets their initial stress.\n\n"
+                      << options;
+            return 0;
+        }
+        run(values["case"].as<std::string>(), values["dict"].as<std::string>(), values.contains("dry-run"));
+        return 0;
+    } catch (const InputError& error) {
+        std::cerr << error.what() << std::flush;
+    } catch (const po::error& error) {
+        std::cerr << "--> CAISSONFOAM FATAL ERROR : " << error.what()
+                  << "\n    see setMaterialPoints -help\n";
+    } catch (const std::exception& error) {
+        std::cerr << "--> CAISSONFOAM FATAL ERROR : " << error.what() << '\n';
+    }
+    return 1;
+}
