@@ -23,6 +23,8 @@ constexpr std::array mohrCoulombKeywords{
             "Dilatancy angle, at most the friction angle; negative for soil that contracts in shear."},
     Keyword{"cohesion", "Pa", "0", "[0, inf)",
             "Effective cohesion; with 0 the soil bears no tension at all."},
+    Keyword{"gapClosing", "flag", "no", "",
+            "Whether soil that opened in tension bears stress again only when the opening has closed."},
 };
 constexpr std::array trescaKeywords{
     youngsModulus,
@@ -54,7 +56,8 @@ std::unique_ptr<ConstitutiveLaw> makeMohrCoulomb(const KeywordReader& reader)
     const std::size_t before = reader.problems().all().size();
     const IsotropicElasticity elastic = elasticity(reader);
     const MohrCoulombStrength strength{reader.number("frictionAngle") * degree,
-                                       reader.number("dilatancyAngle") * degree, reader.number("cohesion")};
+                                       reader.number("dilatancyAngle") * degree, reader.number("cohesion"),
+                                       reader.flag("gapClosing")};
     if (strength.dilatancyAngle > strength.frictionAngle)
         reader.problem("dilatancyAngle", "dilatancyAngle is larger than frictionAngle",
                        "plastic flow would create energy: choose a dilatancyAngle of at most frictionAngle");

@@ -103,7 +103,7 @@ void MohrCoulomb::updateChunk(const StressBatch& batch, const int begin, const i
         const double taken13 = taken[0] - taken[2];
         plasticShearStrain[i] +=
             compliance * std::sqrt(taken12 * taken12 + taken23 * taken23 + taken13 * taken13);
-        opening[i] = result.region == ReturnRegion::apex
+        opening[i] = strength_.gapClosing && result.region == ReturnRegion::apex
                          ? std::max(0.0, (taken[0] + taken[1] + taken[2]) / (3 * bulk))
                          : 0.0;
 

@@ -10,8 +10,10 @@ namespace caisson {
 /// State variables:
 /// - plasticShearStrain: sum of sqrt(2/3 de:de), de the plastic strain increment's deviator [-]; in triaxial
 ///   compression |d eps_axial - d eps_radial| 2/3.
-/// - tensileVolumetricStrain: volumetric strain that opened at the apex [-]. The grains have parted: the
-///   stress stays at the apex until compression has closed the opening again (no stress from a closing gap).
+/// - tensileVolumetricStrain: with gapClosing, volumetric strain that opened at the apex [-]. The grains have
+///   parted: the stress stays at the apex until compression has closed the opening again. Off by default:
+///   where soil flows round a corner, strains of opening add up that no gap is left of, and the soil beside a
+///   penetrating wall ends up without any stress (doc/theory).
 class MohrCoulomb final : public ConstitutiveLaw
 {
 public:

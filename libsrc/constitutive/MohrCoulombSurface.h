@@ -13,6 +13,8 @@ struct MohrCoulombStrength
     double frictionAngle = 0;  ///< [rad], in [0, pi/2)
     double dilatancyAngle = 0; ///< [rad], at most the friction angle; negative: contractant
     double cohesion = 0;       ///< [Pa], >= 0
+    /// Whether grains that parted at the apex bear stress again only when they have closed the gap.
+    bool gapClosing = false;
 };
 
 /// Part of the yield surface that a stress was returned to; stresses in the order s1 >= s2 >= s3.

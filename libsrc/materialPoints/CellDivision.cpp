@@ -51,9 +51,10 @@ public:
         const auto part = [](double i, int count) { return i / count; };
         for (int j = 0; j < m; ++j) {
             for (int i = 0; i < n; ++i) {
-                add({place(part(i, n), part(j, m)), place(part(i + 1, n), part(j, m)),
-                     place(part(i + 1, n), part(j + 1, m)), place(part(i, n), part(j + 1, m))},
-                    place(part(i + 0.5, n), part(j + 0.5, m)));
+                const Polygon subCell{place(part(i, n), part(j, m)), place(part(i + 1, n), part(j, m)),
+                                      place(part(i + 1, n), part(j + 1, m)),
+                                      place(part(i, n), part(j + 1, m))};
+                add(subCell, centroid(subCell));
             }
         }
     }
@@ -76,6 +77,37 @@ public:
     std::vector<SubCell> subCells;
 
 private:
+    /// Centre of volume, weighted with r in axisymmetry: the points of a rectangle then integrate its shape
+    /// functions exactly, so that soil at rest is in balance at every node.
+    [[nodiscard]] Offset centroid(const Polygon& polygon) const
+    {
+        double volume = 0;
+        Offset moment{};
+        for (std::size_t k = 1; k + 1 < polygon.size(); ++k) {
+            const std::array<Offset, 3> c{polygon[0], polygon[k], polygon[k + 1]};
+            const double area =
+                ((c[1][0] - c[0][0]) * (c[2][1] - c[0][1]) - (c[2][0] - c[0][0]) * (c[1][1] - c[0][1])) / 2;
+            const auto weight = [&](const Offset& place) {
+                return geometry_ == Geometry::axisymmetric ? baseR_ + place[0] : 1.0;
+            };
+            double sumOfWeights = 0;
+            Offset sum{};
+            for (const Offset& place : c) {
+                sumOfWeights += weight(place);
+                sum = mix(sum, 1, place, 1);
+            }
+            volume += area * sumOfWeights / 3;
+            for (int direction : {0, 1}) { // integral of a product of two linear functions over a triangle
+                double products = 0;
+                for (const Offset& place : c) {
+                    products += weight(place) * place[direction];
+                }
+                moment[direction] += area * (sumOfWeights * sum[direction] + products) / 12;
+            }
+        }
+        return {moment[0] / volume, moment[1] / volume};
+    }
+
     void points(const std::array<Offset, 3>& c, int pattern)
     {
         const auto weighted = [&](int k, double own, double next, double last) {

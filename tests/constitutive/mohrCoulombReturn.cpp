@@ -351,9 +351,23 @@ TEST(MohrCoulomb, strengthlessFluidKeepsItsPressureOnly)
     EXPECT_NEAR(points.stress[3][0], 0, 1e-12);
 }
 
-TEST(MohrCoulomb, anOpeningClosesBeforeItBearsStress)
+TEST(MohrCoulomb, anOpeningIsForgottenUnlessAskedFor)
 {
     const MohrCoulomb law(elasticity, {38 * degree, 1 * degree, 0});
+    PointBatch points(law);
+    for (const double each : {3e-4, -1e-4}) {
+        for (int k = 0; k < 3; ++k)
+            points.strain[k][0] = each;
+        points.strain[3][0] = 0;
+        points.update();
+        EXPECT_EQ(points.state[1][0], 0);
+    }
+    EXPECT_NEAR(points.stress[0][0], -3e-4 * elasticity.bulkModulus(), 1e-12);
+}
+
+TEST(MohrCoulomb, anOpeningClosesBeforeItBearsStress)
+{
+    const MohrCoulomb law(elasticity, {38 * degree, 1 * degree, 0, true});
     PointBatch points(law);
     const auto strain = [&](const double each, const double shear) {
         for (int k = 0; k < 3; ++k)

@@ -231,7 +231,7 @@ void RunOutput::watchGates(const State& state, double kinetic, double work)
     }
 }
 
-void RunOutput::afterStep(State& state, const TimeStep&, double courant)
+void RunOutput::afterStep(State& state, const TimeStep& step, double courant)
 {
     const double now = Log::processorSeconds();
     stepSeconds_ += now - lastMark_;
@@ -253,6 +253,9 @@ void RunOutput::afterStep(State& state, const TimeStep&, double courant)
             report.bodies.push_back(output.last);
         }
         report.pointSteps = points;
+        const CellCounts cells = step.cellCounts(state);
+        report.lines.push_back(text("Cells: filled = %d, partly filled = %d, empty = %d", cells.filled,
+                                    cells.partial, cells.empty));
         log_.step(runTime_, report);
     } else {
         StepReport silent;
