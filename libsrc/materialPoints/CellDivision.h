@@ -22,7 +22,7 @@ struct CellDivision
 /// The sub-cell of a material point.
 struct SubCell
 {
-    double r, z;            ///< place of the point [m]
+    double r, z;            ///< place of the point [m]; quadrilaterals: the centre of volume
     double volume;          ///< [m3/rad] or [m2], exact
     double lowest, highest; ///< extent of the sub-cell in z [m]
 };
