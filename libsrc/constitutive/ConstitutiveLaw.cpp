@@ -58,7 +58,7 @@ std::unique_ptr<ConstitutiveLaw> makeMohrCoulomb(const KeywordReader& reader)
     const MohrCoulombStrength strength{reader.number("frictionAngle") * degree,
                                        reader.number("dilatancyAngle") * degree, reader.number("cohesion"),
                                        reader.flag("gapClosing")};
-    if (strength.dilatancyAngle > strength.frictionAngle)
+    if (reader.has("frictionAngle") && strength.dilatancyAngle > strength.frictionAngle)
         reader.problem("dilatancyAngle", "dilatancyAngle is larger than frictionAngle",
                        "plastic flow would create energy: choose a dilatancyAngle of at most frictionAngle");
     else if (reader.problems().all().size() == before && !MohrCoulombSurface(elastic, strength).wellPosed())
