@@ -51,10 +51,8 @@ public:
         const auto part = [](double i, int count) { return i / count; };
         for (int j = 0; j < m; ++j) {
             for (int i = 0; i < n; ++i) {
-                const Polygon subCell{place(part(i, n), part(j, m)), place(part(i + 1, n), part(j, m)),
-                                      place(part(i + 1, n), part(j + 1, m)),
-                                      place(part(i, n), part(j + 1, m))};
-                add(subCell, centroid(subCell));
+                add({place(part(i, n), part(j, m)), place(part(i + 1, n), part(j, m)),
+                     place(part(i + 1, n), part(j + 1, m)), place(part(i, n), part(j + 1, m))});
             }
         }
     }
@@ -77,8 +75,8 @@ public:
     std::vector<SubCell> subCells;
 
 private:
-    /// Centre of volume, weighted with r in axisymmetry: the points of a rectangle then integrate its shape
-    /// functions exactly, so that soil at rest is in balance at every node.
+    /// Centre of volume, weighted with r in axisymmetry. Points there integrate linear functions exactly, and
+    /// so the shape functions of triangles and rectangles: soil at rest is in balance at every node.
     [[nodiscard]] Offset centroid(const Polygon& polygon) const
     {
         double volume = 0;
@@ -115,23 +113,24 @@ private:
         };
         const Offset centre = weighted(0, 1.0 / 3, 1.0 / 3, 1.0 / 3);
         if (pattern == 1) {
-            add({c[0], c[1], c[2]}, centre);
+            add({c[0], c[1], c[2]});
             return;
         }
         for (int k = 0; k < 3; ++k) {
             const Offset middle = weighted(k, 0.5, 0.5, 0);
             const Offset middleBefore = weighted(k, 0.5, 0, 0.5);
             if (pattern == 3) {
-                add({c[k], middle, centre, middleBefore}, weighted(k, 2.0 / 3, 1.0 / 6, 1.0 / 6));
+                add({c[k], middle, centre, middleBefore});
             } else {
-                add({c[k], middle, centre}, weighted(k, 11.0 / 18, 5.0 / 18, 2.0 / 18));
-                add({c[k], centre, middleBefore}, weighted(k, 11.0 / 18, 2.0 / 18, 5.0 / 18));
+                add({c[k], middle, centre});
+                add({c[k], centre, middleBefore});
             }
         }
     }
 
-    void add(const Polygon& polygon, const Offset& point)
+    void add(const Polygon& polygon)
     {
+        const Offset point = centroid(polygon);
         const auto [low, high] = std::ranges::minmax_element(
             polygon, [](const Offset& a, const Offset& b) { return a[1] < b[1]; });
         subCells.push_back({baseR_ + point[0], baseZ_ + point[1], polygonVolume(geometry_, baseR_, polygon),

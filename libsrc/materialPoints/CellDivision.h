@@ -14,15 +14,15 @@ struct CellDivision
     std::array<int, 2> along = {2, 2};
     /// triangles: sub-triangles per side, all alike ...
     int split = 1;
-    /// ... and points in each: 1 (its centre), 3 (the places (1/6 1/6 2/3) of Gauss's rule, each with the
-    /// third of the triangle next to its corner) or 6 (centres of the triangles that its medians make)
+    /// ... and points in each: 1, 3 (the parts next to the corners, bounded by the lines from the centre to
+    /// the middles of the sides) or 6 (the triangles that the medians make)
     int pattern = 3;
 };
 
 /// The sub-cell of a material point.
 struct SubCell
 {
-    double r, z;            ///< place of the point [m]; quadrilaterals: the centre of volume
+    double r, z;            ///< place of the point [m]: the sub-cell's centre of volume
     double volume;          ///< [m3/rad] or [m2], exact
     double lowest, highest; ///< extent of the sub-cell in z [m]
 };

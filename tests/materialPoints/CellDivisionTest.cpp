@@ -96,17 +96,43 @@ TEST(CellDivision, directionsFollowRAndZWhereverTheCornersStart)
     }
 }
 
-TEST(CellDivision, threePointsOfATriangleIntegrateQuadraticsExactly)
+TEST(CellDivision, pointsIntegrateTheShapeFunctionsExactlySoThatWeightsAreRight)
 {
-    // Gauss's rule [Strang & Fix 1973]: equal weights at (1/6 1/6 2/3).
-    const BackgroundMesh mesh = structuredMesh({0, 2}, {0, 2}, Geometry::planeStrain, true);
-    double integral = 0;
-    for (const SubCell& subCell : subdivide(mesh, 0, {})) {
-        EXPECT_NEAR(subCell.volume, 2.0 / 3, 1e-15);
-        integral += subCell.volume * subCell.r * subCell.r;
+    // Over a triangle, int r z dA = A (sum r sum z + sum of r_i z_i)/12, and so for r^2.
+    const BackgroundMesh mesh = oddMesh(Geometry::axisymmetric, true);
+    for (const int points : {1, 3, 4, 6, 12, 24}) {
+        CellDivision division;
+        ASSERT_TRUE(divideTriangle(points, division));
+        for (int c = 0; c < mesh.cells(); ++c) {
+            double sumR = 0, sumZ = 0, sumRR = 0, sumRZ = 0;
+            for (int k = 0; k < 3; ++k) {
+                const double r = mesh.r[mesh.node(c, k)], z = mesh.z[mesh.node(c, k)];
+                sumR += r;
+                sumZ += z;
+                sumRR += r * r;
+                sumRZ += r * z;
+            }
+            double momentR = 0, momentZ = 0;
+            for (const SubCell& subCell : subdivide(mesh, c, division)) {
+                momentR += subCell.volume * subCell.r;
+                momentZ += subCell.volume * subCell.z;
+            }
+            const double area = cellArea(mesh, c);
+            EXPECT_NEAR(momentR / (area * (sumR * sumR + sumRR) / 12), 1, 1e-14) << points << " points";
+            EXPECT_NEAR(momentZ / (area * (sumR * sumZ + sumRZ) / 12), 1, 1e-14) << points << " points";
+        }
     }
-    // Triangle (0 0) (2 0) (2 2): integral of r^2 = int_0^2 r^3 dr = 4
-    EXPECT_NEAR(integral, 4, 1e-14);
+    const BackgroundMesh rectangle = structuredMesh({0.1, 0.6}, {-1, -0.6}, Geometry::axisymmetric);
+    double momentR = 0, momentZ = 0, momentRZ = 0;
+    for (const SubCell& subCell : subdivide(rectangle, 0, {})) {
+        momentR += subCell.volume * subCell.r;
+        momentZ += subCell.volume * subCell.z;
+        momentRZ += subCell.volume * subCell.r * subCell.z;
+    }
+    const double thirdMoment = (0.216 - 0.001) / 3, half = (0.36 - 0.01) / 2, z = (0.36 - 1) / 2;
+    EXPECT_NEAR(momentR, thirdMoment * 0.4, 1e-16);
+    EXPECT_NEAR(momentZ, half * z, 1e-16);
+    EXPECT_NEAR(momentRZ, thirdMoment * z, 1e-16);
 }
 
 TEST(CellDivision, numbersOfPointsInTriangles)
