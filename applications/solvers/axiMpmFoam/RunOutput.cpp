@@ -155,6 +155,9 @@ RunOutput::RunOutput(RunTime& runTime, const CaseScene& caseScene, Log& log)
         bodies_.push_back(std::move(output));
     }
     touchCaseFile(runTime.caseDirectory());
+    if (!runTime.restarted()) {
+        writeVtk(state);
+    }
     lastMark_ = Log::processorSeconds();
 }
 
@@ -300,11 +303,17 @@ void RunOutput::write(const State& state, const TimeStep& step)
             writeField(folder, rate, false, "[0 0 -1 0 0 0 0]", calculated, style);
         }
     });
+    writeVtk(state);
+    lastMark_ = Log::processorSeconds();
+}
+
+void RunOutput::writeVtk(const State& state) const
+{
     const std::filesystem::path folder = runTime_.caseDirectory() / "VTK/materialPoints";
     std::filesystem::create_directories(folder);
-    writeVtp(vtkSeriesFile(folder, "materialPoints", runTime_.timeName(), "vtp"), points, state.time);
+    writeVtp(vtkSeriesFile(folder, "materialPoints", runTime_.timeName(), "vtp"),
+             cloud(state.points, case_.stateNames), state.time);
     writeVtkSeries(folder, "materialPoints", "vtp", state.time);
-    lastMark_ = Log::processorSeconds();
 }
 
 void RunOutput::summary(const State& state) const

@@ -48,6 +48,7 @@ public:
 
 private:
     void recordBodies(State& state);
+    void writeVtk(const State& state) const;
     void watchGates(const State& state, double kinetic, double work);
 
     struct BodyOutput
