@@ -48,7 +48,8 @@ std::map<std::string, PatchVelocity> readPatchVelocities(const Dictionary& field
     std::map<std::string, PatchVelocity> result;
     const Dictionary* boundaryField = fieldU.findDictionary("boundaryField");
     if (!boundaryField) {
-        problems.add(fieldU.where(), "no boundaryField", "one sub-dictionary per patch of constant/polyMesh/boundary");
+        problems.add(fieldU.where(), "no boundaryField",
+                     "one sub-dictionary per patch of constant/polyMesh/boundary");
         return result;
     }
     std::vector<std::string> patchNames = constraintPatches;
@@ -68,14 +69,14 @@ std::map<std::string, PatchVelocity> readPatchVelocities(const Dictionary& field
         const Entry* entry = boundaryField->find(patch.name);
         if (!entry || !entry->dictionary) {
             if (!patch.edges.empty()) {
-                problems.add(boundaryField->where(), "no condition for patch '" + patch.name + "'",
-                             "types: " + [] {
-                                 std::string all;
-                                 for (const TypeWord& type : types) {
-                                     all += std::string(type.word) + " ";
-                                 }
-                                 return all;
-                             }());
+                problems.add(
+                    boundaryField->where(), "no condition for patch '" + patch.name + "'", "types: " + [] {
+                        std::string all;
+                        for (const TypeWord& type : types) {
+                            all += std::string(type.word) + " ";
+                        }
+                        return all;
+                    }());
             }
             continue;
         }
@@ -106,8 +107,9 @@ std::map<std::string, PatchVelocity> readPatchVelocities(const Dictionary& field
             }
         }
         for (const Entry& key : dictionary.entries()) {
-            const bool known = key.keyword == "type" || key.keyword == "value" || key.keyword == type->valueKey ||
-                               key.keyword == "patchType" || key.keyword.ends_with("Coeffs");
+            const bool known = key.keyword == "type" || key.keyword == "value" ||
+                               key.keyword == type->valueKey || key.keyword == "patchType" ||
+                               key.keyword.ends_with("Coeffs");
             if (!known && !dictionary.usedAsMacro(key.keyword)) {
                 problems.add(key.where, "unknown key '" + key.keyword + "' for patch '" + patch.name + "'",
                              suggestion(key.keyword, {"type", std::string(type->valueKey)}, "keys"));
@@ -118,7 +120,8 @@ std::map<std::string, PatchVelocity> readPatchVelocities(const Dictionary& field
     return result;
 }
 
-VelocityConditions::VelocityConditions(const BackgroundMesh& mesh, std::map<std::string, PatchVelocity> patches)
+VelocityConditions::VelocityConditions(const BackgroundMesh& mesh,
+                                       std::map<std::string, PatchVelocity> patches)
 {
     for (auto& [name, condition] : patches) {
         patches_.emplace(name, std::make_shared<const PatchVelocity>(std::move(condition)));
@@ -149,7 +152,8 @@ VelocityConditions::VelocityConditions(const BackgroundMesh& mesh, std::map<std:
             for (const BoundaryEdge& edge : mesh.patches[p].edges) {
                 const auto [a, b] = edge.node;
                 const double length = std::hypot(mesh.r[b] - mesh.r[a], mesh.z[b] - mesh.z[a]);
-                const std::array<double, 2> normal{(mesh.z[b] - mesh.z[a]) / length, -(mesh.r[b] - mesh.r[a]) / length};
+                const std::array<double, 2> normal{(mesh.z[b] - mesh.z[a]) / length,
+                                                   -(mesh.r[b] - mesh.r[a]) / length};
                 hold(a, normal);
                 hold(b, normal);
             }
@@ -179,16 +183,17 @@ void VelocityConditions::addTractions(const BackgroundMesh& mesh, double time,
     for (const auto& [p, condition] : loaded_) {
         const bool normalOnly = condition->kind == PatchVelocity::Kind::pressure;
         const double pressure = normalOnly ? condition->value.component[0]->value(time) : 0;
-        const std::array<double, 3> traction = normalOnly ? std::array<double, 3>{} : condition->value.value(time);
+        const std::array<double, 3> traction =
+            normalOnly ? std::array<double, 3>{} : condition->value.value(time);
         for (const BoundaryEdge& edge : mesh.patches[p].edges) {
             const auto [a, b] = edge.node;
             const double dr = mesh.r[b] - mesh.r[a];
             const double dz = mesh.z[b] - mesh.z[a];
             // Outward normal times length is (dz, -dr); a pressure pushes inward.
             const double length = std::hypot(dr, dz);
-            const std::array<double, 2> load = normalOnly
-                                                   ? std::array<double, 2>{-pressure * dz, pressure * dr}
-                                                   : std::array<double, 2>{traction[0] * length, traction[2] * length};
+            const std::array<double, 2> load =
+                normalOnly ? std::array<double, 2>{-pressure * dz, pressure * dr}
+                           : std::array<double, 2>{traction[0] * length, traction[2] * length};
             const bool axisymmetric = mesh.geometry == Geometry::axisymmetric;
             // integral of N r ds over the edge per length: (2 r_self + r_other)/6
             const double weightA = axisymmetric ? (2 * mesh.r[a] + mesh.r[b]) / 6 : 0.5;

@@ -9,16 +9,16 @@ namespace caisson {
 
 /// What one patch of 0/U asks of the solid's velocity.
 ///
-/// | type               | meaning                                                    | keys                  |
+/// | type               | meaning                                                    | keys |
 /// |--------------------|------------------------------------------------------------|-----------------------|
-/// | fixedValue         | all components given                                       | value uniform (x y z) |
-/// | uniformFixedValue  | all components given as a Function1 of time                | uniformValue          |
-/// | slip               | no velocity normal to the patch (roller), tangential free   |                       |
-/// | symmetryPlane      | the same                                                   |                       |
-/// | zeroGradient       | free                                                       |                       |
-/// | traction           | traction vector [Pa] as a Function1 of time, on the edges   | uniformValue          |
-/// | pressure           | pressure [Pa] as a Function1 of time, normal into the soil  | uniformValue          |
-/// | wedge, empty       | the planes of the 2-D model                                 |                       |
+/// | fixedValue         | all components given                                       | value uniform (x y z)
+/// | | uniformFixedValue  | all components given as a Function1 of time                | uniformValue | |
+/// slip               | no velocity normal to the patch (roller), tangential free   |                       |
+/// | symmetryPlane      | the same                                                   | | | zeroGradient |
+/// free                                                       |                       | | traction | traction
+/// vector [Pa] as a Function1 of time, on the edges   | uniformValue          | | pressure           |
+/// pressure [Pa] as a Function1 of time, normal into the soil  | uniformValue          | | wedge, empty | the
+/// planes of the 2-D model                                 |                       |
 struct PatchVelocity
 {
     enum class Kind { free, fixed, slip, traction, pressure };
@@ -52,13 +52,15 @@ public:
     [[nodiscard]] const std::vector<Node>& nodes() const { return nodes_; }
 
     /// Adds the forces of tractions and pressures [N/rad or N/m] at the time to the nodal forces.
-    void addTractions(const BackgroundMesh& mesh, double time, std::vector<std::array<double, 2>>& force) const;
+    void addTractions(const BackgroundMesh& mesh, double time,
+                      std::vector<std::array<double, 2>>& force) const;
     [[nodiscard]] bool hasTractions() const { return !loaded_.empty(); }
 
 private:
     std::map<std::string, std::shared_ptr<const PatchVelocity>> patches_;
     std::vector<Node> nodes_;
-    std::vector<std::pair<int, std::shared_ptr<const PatchVelocity>>> loaded_; ///< patch of the mesh, condition
+    std::vector<std::pair<int, std::shared_ptr<const PatchVelocity>>>
+        loaded_; ///< patch of the mesh, condition
 };
 
 } // namespace caisson
