@@ -65,6 +65,25 @@ void checkFinite(const State& state, const Energies& energies, double waveSpeed)
                        "the last written time is good; try a smaller maxCo, or more points per cell"}});
 }
 
+/// The stretched zones of the mesh must not be pressed flat.
+void checkMotion(const Scene& scene, const State& state)
+{
+    if (scene.movingBody < 0) {
+        return;
+    }
+    const RigidBody& body = state.bodies[scene.movingBody];
+    const double displacement = body.tipLevel - body.initialTipLevel;
+    const DisplacementRange range = scene.motion.allowedDisplacements();
+    if (displacement < range.lowest || displacement > range.highest) {
+        throw InputError("the run",
+                         {{{"constant/dynamicMeshDict", 0},
+                           text("the mesh cannot follow '%s' any further: it has moved by %.4g m, and the "
+                                "stretched zones allow %.4g to %.4g m",
+                                body.name.c_str(), displacement, range.lowest, range.highest),
+                           "set top higher or bottom lower"}});
+    }
+}
+
 int run(const std::filesystem::path& caseDirectory, bool dryRun, const std::string& commandLine)
 {
     Log log(std::cout);
@@ -97,7 +116,8 @@ int run(const std::filesystem::path& caseDirectory, bool dryRun, const std::stri
         checkTimeStep(runTime, deltaT, stable);
         step->advance(state, deltaT);
         state.time = runTime.time();
-        if (output.logDue() || runTime.writeTime()) {
+        checkMotion(scene, state);
+        if (runTime.writeTime() || runTime.index() % 100 == 0) {
             checkFinite(state, sumEnergies(scene, state), stable.waveSpeed);
         }
         output.afterStep(state, *step, deltaT / stable.step);
