@@ -3,6 +3,7 @@
 #include "dictionary/Text.h"
 
 #include <algorithm>
+#include <limits>
 
 namespace caisson {
 
@@ -59,6 +60,26 @@ std::vector<Layer> findLayers(const SeededPoints& seeded, const std::vector<Mate
     return merged;
 }
 
+/// Nothing would carry the weight of soil that is not there. Where the surface cuts the cells it may lie
+/// above the uppermost sub-cell, by less than the height of one.
+bool reachesSurface(const SeededPoints& seeded, const InitialState& state, InputProblems& problems)
+{
+    double highest = -std::numeric_limits<double>::infinity();
+    double highestPoint = highest;
+    for (const MaterialExtent& extent : seeded.extent) {
+        highest = std::max(highest, extent.highest);
+        highestPoint = std::max(highestPoint, extent.highestPoint);
+    }
+    if (seeded.points.size() == 0 || state.surfaceLevel - highest <= 2 * (highest - highestPoint)) {
+        return true;
+    }
+    problems.add(
+        state.where,
+        text("the soil reaches up to z = %g only, not to surfaceLevel %g", highest, state.surfaceLevel),
+        "surfaceLevel is the z of the soil surface; give what rests on it as overburden");
+    return false;
+}
+
 void setK0(SeededPoints& seeded, const std::vector<Material>& materials, const InitialState& state,
            const std::array<double, 2>& gravity, InputProblems& problems)
 {
@@ -74,6 +95,9 @@ void setK0(SeededPoints& seeded, const std::vector<Material>& materials, const I
                      text("%ld points lie above surfaceLevel %g, up to z = %g", static_cast<long>(above),
                           state.surfaceLevel, *std::ranges::max_element(points.z)),
                      "surfaceLevel is the z of the soil surface");
+        return;
+    }
+    if (!reachesSurface(seeded, state, problems)) {
         return;
     }
     const std::vector<Layer> layers =

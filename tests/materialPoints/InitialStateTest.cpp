@@ -122,6 +122,21 @@ TEST_F(InitialStates, K0RefusesPointsAboveTheSurfaceAndSidewaysGravity)
     EXPECT_NE(messages().find("gravity along -z"), std::string::npos) << messages();
 }
 
+TEST_F(InitialStates, K0RefusesASurfaceAboveTheSoil)
+{
+    fill("{ type box; min (0 -9); max (2 -1); material sand; }");
+    setStress("type K0; K0 0.5; surfaceLevel 0;");
+    EXPECT_EQ(messages(), "the soil reaches up to z = -1 only, not to surfaceLevel 0; ");
+    EXPECT_EQ(seeded.points.stress[1], std::vector<double>(seeded.points.size(), 0));
+
+    // A surface that cuts cells lies above the uppermost sub-cells: 0.5 m high, their next row has its
+    // centres at -0.75, above the surface.
+    problems = {};
+    fill("{ type box; min (0 -9); max (2 -0.8); material sand; }");
+    setStress("type K0; K0 0.5; surfaceLevel -0.8;");
+    EXPECT_EQ(messages(), "");
+}
+
 TEST_F(InitialStates, uniformAndZeroStress)
 {
     fill("{ type all; material sand; }");
