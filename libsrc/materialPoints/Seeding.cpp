@@ -40,10 +40,15 @@ public:
                 r += mesh_.r[mesh_.node(cell, k)] / mesh_.corners;
                 z += mesh_.z[mesh_.node(cell, k)] / mesh_.corners;
             }
+            const std::size_t before = result_.points.size();
+            std::vector<std::size_t> reaching;
             for (std::size_t i = 0; i < regions_.size() && !insideBody(r, z); ++i) {
-                if (reaches_[i][cell]) {
-                    fillCell(cell, i, r, z);
+                if (reaches_[i][cell] && fillCell(cell, i, r, z)) {
+                    reaching.push_back(i);
                 }
+            }
+            for (std::size_t k = 0; result_.points.size() == before && k < reaching.size(); ++k) {
+                ++result_.regions[reaching[k]].emptyCells;
             }
         }
         return std::move(result_);
@@ -52,12 +57,13 @@ public:
 private:
     [[nodiscard]] bool insideBody(double r, double z) const { return insideBody_ && insideBody_(r, z); }
 
-    void fillCell(int cell, std::size_t i, double centreR, double centreZ)
+    /// @returns whether the region has a part in the cell, beyond the rounding of lines that should coincide
+    bool fillCell(int cell, std::size_t i, double centreR, double centreZ)
     {
         const SeedRegion& region = regions_[i];
         const double within = region.volumeWithin(mesh_, cell);
         if (!(within > 0)) {
-            return;
+            return false;
         }
         result_.regions[i].exactVolume += within;
         CellDivision division = region.division;
@@ -76,6 +82,7 @@ private:
                 add(cell, i, subCell);
             }
         }
+        return within > 1e-6 * cellVolume(mesh_, cell);
     }
 
     [[nodiscard]] bool takenLater(int cell, std::size_t i, const SubCell& subCell) const

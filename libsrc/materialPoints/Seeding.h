@@ -11,10 +11,11 @@ namespace caisson {
 struct SeededRegion
 {
     std::size_t points = 0;
-    double volume = 0;        ///< of the points [m3/rad] or [m2]
-    double mass = 0;          ///< of the points [kg/rad] or [kg/m]
-    double exactVolume = 0;   ///< of the region within the mesh, without the bodies' cells
-    double coveredVolume = 0; ///< of the sub-cells with their centre in the region: error of its cut cells
+    double volume = 0;          ///< of the points [m3/rad] or [m2]
+    double mass = 0;            ///< of the points [kg/rad] or [kg/m]
+    double exactVolume = 0;     ///< of the region within the mesh, without the bodies' cells
+    double coveredVolume = 0;   ///< of the sub-cells with their centre in the region: error of its cut cells
+    std::size_t emptyCells = 0; ///< that the region reaches into, but no region has a point in
 };
 
 /// Levels between which a material lies, with the extent of the points' sub-cells [m].

@@ -149,6 +149,23 @@ TEST(Seeding, cutCellsConvergeToTheExactVolumeThatIsReported)
     check("{ type circle; centre (2.2 -2.5); radius 0.8;", circle, 1e-5);
 }
 
+TEST(Seeding, cellsLeftWithoutPointsAreCounted)
+{
+    // The box reaches 0.05 into the column of cells from 1 to 1.5, short of their first points at 1.13, and
+    // ends 1e-9 beyond the line z = 0: that is rounding.
+    const auto box = [](const std::string& points) {
+        return "{ type box; min (0 -6); max (1.05 1e-9); material sand; pointsPerCell " + points + "; }";
+    };
+    const Filled coarse = fill(domain(), box("(2 2)"));
+    ASSERT_TRUE(coarse.problems.empty()) << coarse.problems[0];
+    EXPECT_EQ(coarse.seeded.regions[0].emptyCells, 6u) << "rows below z = 0";
+    EXPECT_EQ(fill(domain(), box("(10 2)")).seeded.regions[0].emptyCells, 0u);
+    // A later region may fill what the first leaves.
+    const Filled both = fill(domain(), box("(2 2)") + "{ type all; material clay; }");
+    EXPECT_EQ(both.seeded.regions[0].emptyCells, 0u);
+    EXPECT_EQ(both.seeded.regions[1].emptyCells, 0u);
+}
+
 TEST(Seeding, refinementsRaiseThePointsOfTheCellsInTheirBox)
 {
     const Filled filled = fill(domain(), "{ type box; min (0 -6); max (4 0); material sand;"

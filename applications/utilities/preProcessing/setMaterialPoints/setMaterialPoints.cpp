@@ -48,6 +48,12 @@ void printRegions(const SeedInput& input, const SeededPoints& seeded)
             std::cout << text("; later regions take %.9g of it",
                               whole * (amount.coveredVolume - amount.volume));
         }
+        if (amount.emptyCells > 0) {
+            std::cout << text(
+                "\n    %zu cells that it reaches into hold no point: lay its boundary on lines of "
+                "the mesh, or raise pointsPerCell",
+                amount.emptyCells);
+        }
         std::cout << '\n';
         total.points += amount.points;
         total.volume += amount.volume;
