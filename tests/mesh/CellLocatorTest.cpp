@@ -14,7 +14,7 @@ using namespace caisson::testing;
 
 namespace {
 
-constexpr int places = 10000;
+constexpr int places = 100000;
 
 bool holds(const BackgroundMesh& mesh, int cell, double r, double z)
 {
