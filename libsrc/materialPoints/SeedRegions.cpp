@@ -192,6 +192,7 @@ private:
             return;
         }
         std::vector<std::string> names;
+        names.reserve(mesh.cellZones.size());
         for (const auto& [name, cells] : mesh.cellZones) {
             names.push_back(name);
         }
@@ -279,6 +280,7 @@ double SeedRegion::volumeWithin(const BackgroundMesh& mesh, int cell) const
     }
     const int first = mesh.node(cell, 0);
     std::vector<Place> part;
+    part.reserve(boundary.size());
     for (const Place& vertex : boundary) {
         part.push_back({vertex[0] - mesh.r[first], vertex[1] - mesh.z[first]});
     }
@@ -315,6 +317,7 @@ std::vector<SeedRegion> readSeedRegions(const std::vector<Dictionary>& regions, 
                                         const std::vector<Material>& materials, InputProblems& problems)
 {
     std::vector<std::string> names;
+    names.reserve(materials.size());
     for (const Material& material : materials) {
         names.push_back(material.name);
     }

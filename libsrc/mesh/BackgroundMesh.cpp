@@ -2,13 +2,23 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
 
 namespace caisson {
+
+namespace {
+
+const int* nodesOf(const BackgroundMesh& mesh, int cell)
+{
+    return mesh.cellNodes.data() + static_cast<std::ptrdiff_t>(cell) * mesh.corners;
+}
+
+} // namespace
 
 double cellArea(const BackgroundMesh& mesh, int cell)
 {
     // Half the cross products of the corners, relative to corner 0: no cancellation far from the origin.
-    const int* node = &mesh.cellNodes[cell * mesh.corners];
+    const int* node = nodesOf(mesh, cell);
     double twice = 0;
     for (int k = 1; k + 1 < mesh.corners; ++k) {
         twice += (mesh.r[node[k]] - mesh.r[node[0]]) * (mesh.z[node[k + 1]] - mesh.z[node[0]]) -
@@ -23,7 +33,7 @@ double cellVolume(const BackgroundMesh& mesh, int cell)
         return cellArea(mesh, cell);
     }
     // A fan of triangles: the integral of r over each is its area times the mean r of its corners.
-    const int* node = &mesh.cellNodes[cell * mesh.corners];
+    const int* node = nodesOf(mesh, cell);
     const double r0 = mesh.r[node[0]];
     const double z0 = mesh.z[node[0]];
     double sum = 0;
@@ -38,7 +48,7 @@ double cellVolume(const BackgroundMesh& mesh, int cell)
 
 double cellSize(const BackgroundMesh& mesh, int cell)
 {
-    const int* node = &mesh.cellNodes[cell * mesh.corners];
+    const int* node = nodesOf(mesh, cell);
     const double area = cellArea(mesh, cell);
     const auto squaredLength = [](double dr, double dz) { return dr * dr + dz * dz; };
     if (mesh.corners == 3) {
