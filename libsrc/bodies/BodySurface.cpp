@@ -25,7 +25,7 @@ double distance(const RigidBody& body, const ProfileEdge& edge, double r, double
 
 std::array<double, 2> pushOut(const RigidBody& body, double r, double z, double clearance)
 {
-    const ProfileEdge* nearest = nullptr;
+    const ProfileEdge* nearest = &body.profile.front();
     double shortest = std::numeric_limits<double>::max();
     for (const ProfileEdge& edge : body.profile) {
         const double d = distance(body, edge, r, z);

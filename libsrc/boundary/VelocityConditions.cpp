@@ -121,7 +121,7 @@ std::map<std::string, PatchVelocity> readPatchVelocities(const Dictionary& field
 }
 
 VelocityConditions::VelocityConditions(const BackgroundMesh& mesh,
-                                       std::map<std::string, PatchVelocity> patches)
+                                       std::map<std::string, PatchVelocity>&& patches)
 {
     for (auto& [name, condition] : patches) {
         patches_.emplace(name, std::make_shared<const PatchVelocity>(std::move(condition)));
@@ -162,10 +162,10 @@ VelocityConditions::VelocityConditions(const BackgroundMesh& mesh,
             loaded_.emplace_back(p, found->second);
         }
     }
-    for (int p = 0; p < static_cast<int>(mesh.patches.size()); ++p) {
-        const auto found = patches_.find(mesh.patches[p].name);
+    for (const BoundaryPatch& patch : mesh.patches) {
+        const auto found = patches_.find(patch.name);
         if (found != patches_.end() && found->second->kind == PatchVelocity::Kind::fixed) {
-            for (const BoundaryEdge& edge : mesh.patches[p].edges) {
+            for (const BoundaryEdge& edge : patch.edges) {
                 for (const int i : edge.node) {
                     held.insert_or_assign(i, Node{i, true, {}, &found->second->value});
                 }

@@ -39,7 +39,7 @@ class VelocityConditions
 public:
     VelocityConditions() = default;
     /// The axis (nodes at r = 0 of an axisymmetric mesh) is held radially without being asked.
-    VelocityConditions(const BackgroundMesh& mesh, std::map<std::string, PatchVelocity> patches);
+    VelocityConditions(const BackgroundMesh& mesh, std::map<std::string, PatchVelocity>&& patches);
 
     /// A node whose velocity is given, wholly or along one direction.
     struct Node

@@ -213,6 +213,7 @@ CaseScene readCaseScene(const std::filesystem::path& caseDirectory, const std::f
             }
             if (scene.motion.moves() && scene.movingBody < 0) {
                 std::vector<std::string> names;
+                names.reserve(state.bodies.size());
                 for (const RigidBody& body : state.bodies) {
                     names.push_back(body.name);
                 }

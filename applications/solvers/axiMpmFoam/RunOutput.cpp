@@ -284,8 +284,9 @@ void RunOutput::write(const State& state, const TimeStep& step)
         const auto nodal = step.nodalVelocities(state);
         for (int i = 0; i < mesh.nodes(); ++i) {
             for (const int point : mesh.nodePoints[i]) {
-                velocity.values[3 * point] = nodal[i][0];
-                velocity.values[3 * point + 2] = nodal[i][1];
+                const std::size_t place = 3 * static_cast<std::size_t>(point);
+                velocity.values[place] = nodal[i][0];
+                velocity.values[place + 2] = nodal[i][1];
             }
         }
         writeField(folder, velocity, true, "[0 1 -1 0 0 0 0]", case_.patchEntries, style);
