@@ -1,0 +1,117 @@
+"""What the comparisons with exact solutions share: reading of runs, the table of errors, the picture. SI units."""
+
+import csv
+import re
+import sys
+from pathlib import Path
+
+import matplotlib
+import numpy as np
+
+matplotlib.use("Agg")
+from matplotlib import pyplot  # noqa: E402  (after the choice of the backend)
+
+
+def folders():
+    """The runs to compare, from the command line, in ascending resolution: runs/<cells>."""
+    found = [Path(name) for name in sys.argv[1:]]
+    if not found:
+        sys.exit("Usage: compare.py runs/<cells> ...   (Allrun calls it)")
+    return sorted(found, key=cells)
+
+
+def cells(run):
+    """Resolution of a run: its folder's name."""
+    return int(run.name)
+
+
+def read_list(file):
+    """Numbers of an ASCII list of OpenFOAM: one row per point."""
+    lines = iter(file.read_text(encoding="utf-8").splitlines())
+    for line in lines:
+        if re.fullmatch(r"\d+", line):
+            rows = int(line)
+            break
+    else:
+        sys.exit(f"{file}: no list of points; set writeFormat ascii")
+    next(lines)
+    text = " ".join(next(lines) for _ in range(rows))
+    return np.array(re.sub(r"[()]", " ", text).split(), float).reshape(rows, -1)
+
+
+class Points:
+    """Material points of one time directory: r, z, R, Z (initial places), mass, volume and the velocity."""
+
+    def __init__(self, directory):
+        folder = directory / "lagrangian/materialPoints"
+        self.time = float(directory.name)
+        self.r, self.z = read_list(folder / "positions")[:, [0, 2]].T
+        self.R, self.Z = read_list(folder / "initialPosition")[:, [0, 2]].T
+        self.vr, self.vz = read_list(folder / "velocity")[:, [0, 2]].T
+        self.rr, self.rz, self.tt, self.zz = read_list(folder / "stress")[:, [0, 2, 3, 5]].T
+        self.mass = read_list(folder / "mass")[:, 0]
+        self.volume = read_list(folder / "volume")[:, 0]
+
+
+def written(run):
+    """Points of all the times that the run wrote, ascending."""
+    times = [directory for directory in run.iterdir() if re.fullmatch(r"[0-9.]+(e-?\d+)?", directory.name)]
+    return [Points(directory) for directory in sorted(times, key=lambda directory: float(directory.name))]
+
+
+def processor_time(run):
+    """Seconds that the solver took."""
+    found = re.findall(r"ExecutionTime = ([0-9.]+)", (run / "log.axiMpmFoam").read_text(encoding="utf-8"))
+    return float(found[-1])
+
+
+def weighted_norm(weight, values):
+    """Root mean square with weights."""
+    return np.sqrt(np.sum(weight * values**2) / np.sum(weight))
+
+
+def report(quantity, runs, errors, target, least_order=None):
+    """Prints the table, writes runs/results.csv, and ends with status 1 where a target is missed.
+
+    quantity     what the error is of, in words
+    errors       one per run
+    target       bound of the error of the finest run, the study's finest resolution or the only one asked for
+    least_order  bound of the order between the two finest runs; none where the error does not follow a power
+    """
+    orders = [float("nan")]
+    for coarse, fine in zip(range(len(runs)), range(1, len(runs))):
+        ratio = np.log(cells(runs[fine]) / cells(runs[coarse]))
+        orders.append(np.log(abs(errors[coarse] / errors[fine])) / ratio)
+    print(f"\n{quantity}\n{'cells':>6} {'error':>10} {'order':>6} {'CPU [s]':>8}")
+    rows = []
+    for run, error, order in zip(runs, errors, orders):
+        seconds = processor_time(run)
+        print(f"{cells(run):>6} {error:>10.2e} {order:>6.2f} {seconds:>8.2f}")
+        rows.append([quantity, cells(run), f"{error:.3e}", f"{order:.2f}", f"{seconds:.2f}", f"{target:g}"])
+    with open("runs/results.csv", "w", encoding="utf-8", newline="") as file:
+        writer = csv.writer(file)
+        writer.writerow(["quantity", "cells", "error", "order", "cpuSeconds", "target"])
+        writer.writerows(rows)
+    failed = []
+    if not abs(errors[-1]) <= target:
+        failed.append(f"error {errors[-1]:.2e} of the finest run, target {target:g}")
+    if least_order is not None and len(runs) > 1 and not orders[-1] >= least_order:
+        failed.append(f"order {orders[-1]:.2f}, target {least_order:g}")
+    if failed:
+        sys.exit("MISSED: " + "; ".join(failed))
+    print(f"within the target {target:g}" + (f", order at least {least_order:g}" if least_order else ""))
+
+
+def picture(xlabel, ylabel):
+    """A figure and its axes; save() writes it."""
+    figure, axes = pyplot.subplots(figsize=(6, 4), layout="constrained")
+    axes.set(xlabel=xlabel, ylabel=ylabel)
+    return figure, axes
+
+
+def save(figure, axes):
+    """Writes runs/comparison.png."""
+    axes.legend()
+    axes.grid(alpha=0.3)
+    figure.savefig("runs/comparison.png", dpi=150)
+    print("Wrote runs/comparison.png")
