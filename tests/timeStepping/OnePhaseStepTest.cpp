@@ -262,5 +262,46 @@ TEST(FreeBody, keepsItsMomentum)
     EXPECT_NEAR(after.mass / before.mass, 1, 1e-14);
 }
 
+// A skirt pushed into sand: no point ends inside the wall, and the soil pushes back.
+TEST(Skirt, isResistedAndKeepsPointsOutOfItsWall)
+{
+    Simulation simulation;
+    simulation.state.mesh =
+        structuredMesh(evenLines(0, 3, 30), evenLines(-3, 0.4, 34), Geometry::axisymmetric);
+    const int sand = simulation.addMaterial(
+        "sand", "law mohrCoulomb; porosity 0.35; solidDensity 2650; liquidDensity 1000; weight submerged; "
+                "youngsModulus 60e6; poissonsRatio 0.25; frictionAngle 38; dilatancyAngle 0; cohesion 0;");
+    simulation.scene.gravity = {0, -9.81};
+    simulation.setConditions("right { type slip; } bottom { type slip; } top { type zeroGradient; }");
+    RigidBody skirt;
+    skirt.name = "skirt";
+    skirt.profile = caissonProfile(1.2, 0.2, 5, 0, 0);
+    skirt.tipLevel = skirt.initialTipLevel = -0.5;
+    skirt.friction = 0.15;
+    skirt.ramp = 0.05;
+    skirt.penetrationRate = std::shared_ptr<const Function1>(constantFunction1(0.2));
+    simulation.state.bodies.push_back(skirt);
+    simulation.scene.motion = MeshMotion({-2.5, -0.8, -0.3, 0}, "skirt");
+    simulation.scene.movingBody = 0;
+    simulation.fill(sand, 2, 4, [&](double r, double z) { return z < 0 && !skirt.contains(r, z); });
+    const double weight = 0.65 * 1650 * 9.81;
+    simulation.setStress([&](double, double z) {
+        return std::array<double, 4>{0.384 * weight * z, weight * z, 0.384 * weight * z, 0};
+    });
+    simulation.start();
+    simulation.run(0.8, 0.7);
+    const RigidBody& now = simulation.state.bodies[0];
+    EXPECT_NEAR(now.penetration(), 0.5 + 0.2 * (0.8 - 0.025), 1e-3);
+    const MaterialPoints& points = simulation.state.points;
+    for (std::size_t p = 0; p < points.size(); ++p) {
+        EXPECT_FALSE(now.contains(points.r[p], points.z[p])) << "point " << points.id[p];
+        EXPECT_LT(std::hypot(points.vr[p], points.vz[p]), 2.0) << "faster than anything that drives it";
+    }
+    const BodyReaction& reaction = simulation.state.reactions[0];
+    EXPECT_GT(reaction.verticalImpulse[static_cast<int>(SurfacePart::tip)], 0) << "the soil resists";
+    EXPECT_GT(reaction.verticalImpulse[static_cast<int>(SurfacePart::outer)], 0);
+    EXPECT_GT(reaction.work, 0);
+}
+
 } // namespace
 } // namespace caisson::testing
