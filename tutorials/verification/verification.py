@@ -81,15 +81,17 @@ def report(quantity, runs, errors, target, least_order=None):
     orders = [float("nan")]
     for coarse, fine in zip(range(len(runs)), range(1, len(runs))):
         ratio = np.log(cells(runs[fine]) / cells(runs[coarse]))
-        orders.append(np.log(abs(errors[coarse] / errors[fine])) / ratio)
+        decay = errors[coarse] / errors[fine]  # an error that changes its sign has no order
+        orders.append(np.log(decay) / ratio if decay > 0 else float("nan"))
     print(f"\n{quantity}\n{'cells':>6} {'error':>10} {'order':>6} {'CPU [s]':>8}")
     rows = []
     for run, error, order in zip(runs, errors, orders):
         seconds = processor_time(run)
         print(f"{cells(run):>6} {error:>10.2e} {order:>6.2f} {seconds:>8.2f}")
-        rows.append([quantity, cells(run), f"{error:.3e}", f"{order:.2f}", f"{seconds:.2f}", f"{target:g}"])
+        bound = f"{target:g}" if run == runs[-1] else ""
+        rows.append([quantity, cells(run), f"{error:.3e}", f"{order:.2f}", f"{seconds:.2f}", bound])
     with open("runs/results.csv", "w", encoding="utf-8", newline="") as file:
-        writer = csv.writer(file)
+        writer = csv.writer(file, lineterminator="\n")
         writer.writerow(["quantity", "cells", "error", "order", "cpuSeconds", "target"])
         writer.writerows(rows)
     failed = []
