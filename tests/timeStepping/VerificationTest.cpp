@@ -297,14 +297,17 @@ void swingBar(double v0, double tolerance, double energyTolerance)
 }
 
 TEST(Bar, swingsWithoutCrossingsAsTheExactOne) { swingBar(0.1, 0.01, 0.01); }
-// Points that cross lines of the mesh make noise: FLIP keeps it as kinetic energy.
+// Points that cross lines of the mesh make noise, and FLIP keeps it: the energy grows by 3.2 % in ten
+// periods, where 1 % is wanted. The bound holds what there is.
 TEST(Bar, swingsThroughCellsAsTheExactOne) { swingBar(0.75, 0.05, 0.05); }
 
 // ---------------------------------------------------------------------------------------------------------
 
 /// Manufactured solution, after Wallstedt & Guilkey 2008: a neo-Hookean disk in plane strain moves as
 /// r = R + A sin(w t) R (1 - R^2), held at its rim. The body force that this needs is given to the points.
-/// Error of the displacement at a tenth of the period.
+/// Error of the displacement at a tenth of the period. Later an error of the order of the strain remains that
+/// no refinement removes, with linear shape functions: 3e-3 at 3/4 of the period for A = 0.005, 2e-2 for A =
+/// 0.1.
 double manufacturedError(int n, double amplitude)
 {
     const double young = 100, poisson = 0.25, rho = 2, h = 1.0 / n;
@@ -407,7 +410,7 @@ TEST(BlockOnIncline, sticksWhereFrictionHoldsIt)
 {
     Simulation simulation;
     putBlockOnIncline(simulation, 0.7);
-    simulation.scene.controls.picTime = 0.01; // ends the swing of the sudden load
+    simulation.scene.controls.picTime = 0.01; // the swing would lift and shift the block
     simulation.run(0.4, 0.5);
     const double early = slideOfBlock(simulation);
     simulation.run(0.8, 0.5);
