@@ -1,57 +1,91 @@
 #include "dictionary/Dictionary.h"
 
 #include "dictionary/DictionaryParser.h"
+#include "dictionary/Pattern.h"
 #include "dictionary/TextFile.h"
 
-#include <regex.h>
+#include <algorithm>
+#include <ranges>
 
 namespace caisson {
 
 namespace {
 
-bool matches(const std::string& pattern, std::string_view keyword)
+void appendQuoted(std::string& text, std::string_view string)
 {
-    regex_t compiled;
-    if (regcomp(&compiled, ("^(" + pattern + ")$").c_str(), REG_EXTENDED | REG_NOSUB) != 0) {
-        return false;
+    text += '"';
+    for (const char c : string) {
+        if (c == '"' || c == '\n') {
+            text += '\\';
+        }
+        text += c;
     }
-    const bool found = regexec(&compiled, std::string(keyword).c_str(), 0, nullptr, 0) == 0;
-    regfree(&compiled);
-    return found;
+    text += '"';
 }
 
 } // namespace
 
+const Entry* Dictionary::findExact(std::string_view keyword) const
+{
+    const auto found = index_.find(keyword);
+    return found == index_.end() ? nullptr : &entries_[found->second];
+}
+
 const Entry* Dictionary::find(std::string_view keyword) const
 {
-    for (const Entry& entry : entries_) {
-        if (!entry.isPattern && entry.keyword == keyword) {
-            return &entry;
-        }
+    if (const Entry* exact = findExact(keyword); exact || !hasPatterns_) {
+        return exact;
     }
-    for (auto entry = entries_.rbegin(); entry != entries_.rend(); ++entry) {
-        if (entry->isPattern && (entry->keyword == keyword || matches(entry->keyword, keyword))) {
-            return &*entry;
+    const std::string word(keyword);
+    for (const Entry& entry : entries_ | std::views::reverse) {
+        if (entry.pattern && entry.pattern->matches(word)) {
+            return &entry;
         }
     }
     return nullptr;
 }
 
-const Entry* Dictionary::findScoped(std::string_view path) const
+const Entry* Dictionary::findScoped(std::string_view path) const { return findScoped(path, true); }
+
+const Entry* Dictionary::findScoped(std::string_view path, bool patterns) const
 {
-    if (const Entry* whole = find(path)) {
+    constexpr auto mostDots = 16; // the ways to split a path double with each dot
+    if (const Entry* whole = patterns ? find(path) : findExact(path)) {
         return whole;
+    }
+    if (std::ranges::count(path, '.') > mostDots) {
+        return nullptr;
     }
     for (std::size_t dot = path.rfind('.'); dot != std::string_view::npos && dot > 0;
          dot = path.rfind('.', dot - 1)) {
-        const Entry* head = find(path.substr(0, dot));
+        const Entry* head = patterns ? find(path.substr(0, dot)) : findExact(path.substr(0, dot));
         if (head && head->dictionary) {
-            if (const Entry* tail = head->dictionary->findScoped(path.substr(dot + 1))) {
+            if (const Entry* tail = head->dictionary->findScoped(path.substr(dot + 1), patterns)) {
                 return tail;
             }
         }
     }
     return nullptr;
+}
+
+void Dictionary::append(Entry entry)
+{
+    index_.emplace(entry.keyword, entries_.size());
+    hasPatterns_ = hasPatterns_ || entry.pattern;
+    entries_.push_back(std::move(entry));
+}
+
+void Dictionary::removeIf(const std::function<bool(const Entry&)>& condition)
+{
+    std::vector<Entry> kept;
+    std::swap(kept, entries_);
+    index_.clear();
+    hasPatterns_ = false;
+    for (Entry& entry : kept) {
+        if (!condition(entry)) {
+            append(std::move(entry));
+        }
+    }
 }
 
 const Dictionary* Dictionary::findDictionary(std::string_view keyword) const
@@ -73,7 +107,12 @@ void Dictionary::print(std::string& text, int depth) const
 {
     const std::string indent(4 * depth, ' ');
     for (const Entry& entry : entries_) {
-        text += indent + (entry.isPattern ? "\"" + entry.keyword + "\"" : entry.keyword);
+        text += indent;
+        if (entry.isPattern) {
+            appendQuoted(text, entry.keyword);
+        } else {
+            text += entry.keyword;
+        }
         if (entry.dictionary) {
             text += "\n" + indent + "{\n";
             entry.dictionary->print(text, depth + 1);
@@ -83,7 +122,7 @@ void Dictionary::print(std::string& text, int depth) const
         for (const Token& token : entry.tokens) {
             text += ' ';
             if (token.kind == Token::Kind::string) {
-                text += '"' + token.text + '"';
+                appendQuoted(text, token.text);
             } else if (token.kind == Token::Kind::verbatim) {
                 text += "#{" + token.text + "#}";
             } else {

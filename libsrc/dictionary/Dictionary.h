@@ -3,6 +3,8 @@
 #include "dictionary/InputProblems.h"
 
 #include <filesystem>
+#include <functional>
+#include <map>
 #include <memory>
 #include <set>
 #include <string>
@@ -24,6 +26,7 @@ struct Token
 };
 
 class Dictionary;
+class Pattern;
 
 /// One entry: a keyword with either a stream of tokens or a sub-dictionary.
 struct Entry
@@ -33,6 +36,7 @@ struct Entry
     SourceLocation where;
     std::vector<Token> tokens;
     std::shared_ptr<Dictionary> dictionary; ///< set where the entry is `keyword { ... }`
+    std::shared_ptr<const Pattern> pattern; ///< the compiled keyword, where isPattern
 };
 
 /// A dictionary in OpenFOAM's format, macros and directives already expanded.
@@ -55,8 +59,15 @@ public:
 
 private:
     friend class DictionaryParser;
+    [[nodiscard]] const Entry* findExact(std::string_view keyword) const; ///< no patterns
+    [[nodiscard]] const Entry* findScoped(std::string_view path, bool patterns) const;
+    void append(Entry entry);
+    void removeIf(const std::function<bool(const Entry&)>& condition);
     void print(std::string& text, int depth) const;
+
     std::vector<Entry> entries_;
+    std::map<std::string, std::size_t, std::less<>> index_; ///< place of each keyword in entries_
+    bool hasPatterns_ = false;
     std::shared_ptr<std::set<std::string, std::less<>>> macros_; ///< shared by all of one file
     std::string name_;
     SourceLocation where_;

@@ -1,5 +1,8 @@
 #include "dictionary/Expression.h"
 
+#include "dictionary/InputProblems.h"
+
+#include <algorithm>
 #include <cctype>
 #include <charconv>
 #include <cmath>
@@ -12,17 +15,16 @@ namespace caisson {
 
 namespace {
 
-double positivePart(double x) { return x > 0 ? x : 0; }
-double negativePart(double x) { return x < 0 ? x : 0; }
+// The functions of OpenFOAM v1912's scalar expressions, with its meaning at zero.
 double sign(double x) { return x >= 0 ? 1 : -1; }
-double isPositive(double x) { return x > 0 ? 1 : 0; }
-double isPositiveOrZero(double x) { return x >= 0 ? 1 : 0; }
-double isNegative(double x) { return x < 0 ? 1 : 0; }
-double isNegativeOrZero(double x) { return x <= 0 ? 1 : 0; }
-double square(double x) { return x * x; }
-double cube(double x) { return x * x * x; }
-double toRadians(double x) { return x * std::numbers::pi / 180; }
-double toDegrees(double x) { return x * 180 / std::numbers::pi; }
+double pos(double x) { return x > 0 ? 1 : 0; }
+double pos0(double x) { return x >= 0 ? 1 : 0; }
+double neg(double x) { return x < 0 ? 1 : 0; }
+double neg0(double x) { return x <= 0 ? 1 : 0; }
+double sqr(double x) { return x * x; }
+double truth(double x) { return x != 0 ? 1 : 0; }
+double degToRad(double x) { return x * std::numbers::pi / 180; }
+double radToDeg(double x) { return x * 180 / std::numbers::pi; }
 
 struct Unary
 {
@@ -30,37 +32,13 @@ struct Unary
     double (*function)(double);
 };
 constexpr Unary unaryFunctions[] = {
-    {"sin", std::sin},
-    {"cos", std::cos},
-    {"tan", std::tan},
-    {"asin", std::asin},
-    {"acos", std::acos},
-    {"atan", std::atan},
-    {"sinh", std::sinh},
-    {"cosh", std::cosh},
-    {"tanh", std::tanh},
-    {"exp", std::exp},
-    {"log", std::log},
-    {"log10", std::log10},
-    {"sqrt", std::sqrt},
-    {"cbrt", std::cbrt},
-    {"mag", std::fabs},
-    {"abs", std::fabs},
-    {"sqr", square},
-    {"pow3", cube},
-    {"floor", std::floor},
-    {"ceil", std::ceil},
-    {"round", std::round},
-    {"degToRad", toRadians},
-    {"radToDeg", toDegrees},
-    {"pos", isPositiveOrZero},
-    {"pos0", isPositiveOrZero},
-    {"neg", isNegative},
-    {"sign", sign},
-    {"positive", positivePart},
-    {"negative", negativePart},
-    {"neg0", isNegativeOrZero},
-    {"posStrict", isPositive},
+    {"sin", std::sin},      {"cos", std::cos},      {"tan", std::tan},   {"asin", std::asin},
+    {"acos", std::acos},    {"atan", std::atan},    {"sinh", std::sinh}, {"cosh", std::cosh},
+    {"tanh", std::tanh},    {"exp", std::exp},      {"log", std::log},   {"log10", std::log10},
+    {"sqrt", std::sqrt},    {"cbrt", std::cbrt},    {"mag", std::fabs},  {"magSqr", sqr},
+    {"sqr", sqr},           {"floor", std::floor},  {"ceil", std::ceil}, {"round", std::round},
+    {"degToRad", degToRad}, {"radToDeg", radToDeg}, {"sign", sign},      {"pos", pos},
+    {"pos0", pos0},         {"neg", neg},           {"neg0", neg0},      {"bool", truth},
 };
 
 struct Binary
@@ -71,8 +49,7 @@ struct Binary
 double smaller(double a, double b) { return a < b ? a : b; }
 double larger(double a, double b) { return a > b ? a : b; }
 constexpr Binary binaryFunctions[] = {
-    {"pow", std::pow}, {"atan2", std::atan2}, {"hypot", std::hypot},
-    {"min", smaller},  {"max", larger},       {"fmod", std::fmod},
+    {"pow", std::pow}, {"atan2", std::atan2}, {"hypot", std::hypot}, {"min", smaller}, {"max", larger},
 };
 
 /// Recursive descent over the text.
@@ -90,7 +67,11 @@ public:
             skip();
         }
         if (at_ < text_.size()) {
-            fail("unexpected '" + std::string(1, text_[at_]) + "'");
+            fail("unexpected '" + std::string(1, text_[at_]) + "'" +
+                 (text_[at_] == '^' ? " (powers are pow(a, b))" : ""));
+        }
+        if (!std::isfinite(value)) {
+            fail("the result is not finite");
         }
         return value;
     }
@@ -103,8 +84,14 @@ private:
     }
     void skip()
     {
-        while (at_ < text_.size() && std::isspace(static_cast<unsigned char>(text_[at_]))) {
-            ++at_;
+        while (at_ < text_.size()) {
+            if (text_.substr(at_, 2) == "//") {
+                at_ = std::min(text_.find('\n', at_), text_.size());
+            } else if (std::isspace(static_cast<unsigned char>(text_[at_]))) {
+                ++at_;
+            } else {
+                return;
+            }
         }
     }
     bool take(std::string_view symbol)
@@ -211,12 +198,7 @@ private:
             ++at_;
             return unary() == 0;
         }
-        return power();
-    }
-    double power()
-    {
-        const double base = primary();
-        return take("^") ? std::pow(base, unary()) : base;
+        return primary();
     }
     double primary()
     {
@@ -265,24 +247,24 @@ private:
         if (arguments.empty() && name == "pi") {
             return std::numbers::pi;
         }
-        if (arguments.empty() && name == "e") {
-            return std::numbers::e;
+        if (arguments.empty() && (name == "degToRad" || name == "radToDeg")) {
+            arguments.push_back(1); // the factor itself
         }
-        if (arguments.size() == 1) {
-            for (const Unary& unaryFunction : unaryFunctions) {
-                if (unaryFunction.name == name) {
-                    return unaryFunction.function(arguments[0]);
-                }
+        std::vector<std::string> valid{"pi"};
+        for (const Unary& candidate : unaryFunctions) {
+            if (candidate.name == name && arguments.size() == 1) {
+                return candidate.function(arguments[0]);
             }
+            valid.emplace_back(candidate.name);
         }
-        if (arguments.size() == 2) {
-            for (const Binary& binaryFunction : binaryFunctions) {
-                if (binaryFunction.name == name) {
-                    return binaryFunction.function(arguments[0], arguments[1]);
-                }
+        for (const Binary& candidate : binaryFunctions) {
+            if (candidate.name == name && arguments.size() == 2) {
+                return candidate.function(arguments[0], arguments[1]);
             }
+            valid.emplace_back(candidate.name);
         }
-        fail("unknown function '" + name + "' of " + std::to_string(arguments.size()) + " arguments");
+        fail("no function '" + name + "' of " + std::to_string(arguments.size()) + " arguments (" +
+             suggestion(name, valid, "functions") + ")");
     }
 
     /// Guards the stack against hostile nesting.

@@ -30,13 +30,10 @@ char Lexer::advance()
     return c;
 }
 
-void Lexer::skipSpaceAndComments(bool stayOnLine)
+void Lexer::skipSpaceAndComments()
 {
     while (at_ < text_.size()) {
         const char c = text_[at_];
-        if (stayOnLine && c == '\n') {
-            return;
-        }
         if (isSpace(c)) {
             advance();
         } else if (text_.substr(at_, 2) == "//") {
@@ -70,20 +67,19 @@ void Lexer::readString(Token& token)
     while (at_ < text_.size() && text_[at_] != '"') {
         if (text_[at_] == '\\' && at_ + 1 < text_.size()) {
             const char escaped = text_[at_ + 1];
-            if (escaped == '"') {
+            if (escaped == '"' || escaped == '\n') {
                 ++at_;
-            } else if (escaped == '\n') { // an escaped newline stands for nothing
-                advance();
-                advance();
-                continue;
             } else {
                 token.text += text_[at_++];
             }
+        } else if (text_[at_] == '\n') {
+            break;
         }
         token.text += advance();
     }
-    if (at_ >= text_.size()) {
-        throw InputError(file_, {{start, "string without an end", "close it with \""}});
+    if (at_ >= text_.size() || text_[at_] == '\n') {
+        throw InputError(
+            file_, {{start, "string without an end", "close it with \", or end the line with a backslash"}});
     }
     ++at_;
 }
@@ -154,13 +150,16 @@ void Lexer::readVariable(Token& token)
         } while (depth > 0);
         return;
     }
-    const bool absolute = at_ < text_.size() && (text_[at_] == '^' || text_[at_] == '/' || text_[at_] == ':');
-    if (absolute) {
+    if (at_ < text_.size() && (text_[at_] == '^' || text_[at_] == ':')) {
         token.text += text_[at_++];
     }
     int depth = 0;
-    while (at_ < text_.size() && isWordCharacter(text_[at_])) {
+    while (at_ < text_.size() && (isWordCharacter(text_[at_]) || text_[at_] == '/')) {
         const char c = text_[at_];
+        const char after = at_ + 1 < text_.size() ? text_[at_ + 1] : ' ';
+        if (c == '/' && (after == '/' || after == '*')) {
+            break; // a comment
+        }
         if (c == '(') {
             ++depth;
         } else if (c == ')' && --depth < 0) {
@@ -193,7 +192,7 @@ void Lexer::readWord(Token& token)
 
 bool Lexer::next(Token& token)
 {
-    skipSpaceAndComments(false);
+    skipSpaceAndComments();
     token = Token{};
     token.line = line_;
     if (at_ >= text_.size()) {
@@ -226,20 +225,13 @@ bool Lexer::next(Token& token)
     return true;
 }
 
-std::vector<Token> Lexer::restOfLine()
+std::string_view Lexer::restOfLine()
 {
-    std::vector<Token> tokens;
-    for (;;) {
-        skipSpaceAndComments(true);
-        if (at_ >= text_.size() || text_[at_] == '\n') {
-            return tokens;
-        }
-        Token token;
-        if (!next(token)) {
-            return tokens;
-        }
-        tokens.push_back(std::move(token));
+    const std::size_t start = at_;
+    while (at_ < text_.size() && (text_[at_] != '\n' || (at_ > start && text_[at_ - 1] == '\\'))) {
+        advance();
     }
+    return text_.substr(start, at_ - start);
 }
 
 std::string Lexer::bracedText()
@@ -275,7 +267,7 @@ std::string Lexer::raw(std::size_t bytes)
 
 bool Lexer::takeCharacter(char c)
 {
-    skipSpaceAndComments(false);
+    skipSpaceAndComments();
     if (at_ < text_.size() && text_[at_] == c) {
         advance();
         return true;

@@ -11,12 +11,15 @@ namespace caisson {
 class Lexer
 {
 public:
-    Lexer(std::string_view text, std::string file) : text_(text), file_(std::move(file)) {}
+    Lexer(std::string_view text, std::string file, int line = 1)
+        : text_(text), file_(std::move(file)), line_(line)
+    {
+    }
 
     /// The next token; false at the end. @throws InputError on an open string, comment or verbatim block
     bool next(Token& token);
-    /// The rest of the present line as tokens (for #if, #include and their like).
-    std::vector<Token> restOfLine();
+    /// The rest of the present line (for #if and its like); a line that ends in '\\' goes on.
+    std::string_view restOfLine();
     /// The text between the next `{` and its matching `}` (for #eval); "" where no `{` follows.
     std::string bracedText();
     /// `bytes` raw bytes after the present place.
@@ -29,7 +32,7 @@ public:
     [[nodiscard]] SourceLocation here() const { return {file_, line_}; }
 
 private:
-    void skipSpaceAndComments(bool stayOnLine);
+    void skipSpaceAndComments();
     char advance();
     void readString(Token& token);
     void readVerbatim(Token& token);
@@ -40,7 +43,7 @@ private:
     std::string_view text_;
     std::string file_;
     std::size_t at_ = 0;
-    int line_ = 1;
+    int line_;
 };
 
 } // namespace caisson

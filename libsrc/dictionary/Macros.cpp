@@ -1,0 +1,288 @@
+// The macros of DictionaryParser: $name in all its scopes, in values, in text and in file names.
+
+#include "dictionary/DictionaryParser.h"
+
+#include <algorithm>
+#include <cctype>
+#include <cstdlib>
+
+namespace caisson {
+
+namespace {
+
+constexpr int deepestMacro = 50;
+constexpr std::size_t longestText = 1'000'000; // characters that text may expand to
+
+bool isBraced(std::string_view name) { return name.size() > 1 && name.front() == '{' && name.back() == '}'; }
+
+bool isNameCharacter(char c)
+{
+    return std::isalnum(static_cast<unsigned char>(c)) || c == '_' || c == '.' || c == ':' || c == '^';
+}
+
+void appendPunctuation(std::vector<Token>& tokens, char c)
+{
+    Token token;
+    token.kind = Token::Kind::punctuation;
+    token.text = c;
+    tokens.push_back(std::move(token));
+}
+
+/// The entries of a dictionary as the tokens that they were read from.
+void appendEntries(std::vector<Token>& tokens, const Dictionary& dictionary)
+{
+    for (const Entry& entry : dictionary.entries()) {
+        Token keyword;
+        keyword.kind = entry.isPattern ? Token::Kind::string : Token::Kind::word;
+        keyword.text = entry.keyword;
+        tokens.push_back(std::move(keyword));
+        if (entry.dictionary) {
+            appendPunctuation(tokens, '{');
+            appendEntries(tokens, *entry.dictionary);
+            appendPunctuation(tokens, '}');
+        } else {
+            tokens.insert(tokens.end(), entry.tokens.begin(), entry.tokens.end());
+            appendPunctuation(tokens, ';');
+        }
+    }
+}
+
+} // namespace
+
+/// `$dictionary;` where an entry may stand merges it here; `$word value;` and `$word { ... }` take the
+/// variable's value as the keyword.
+void DictionaryParser::mergeVariable(Source& source, Dictionary& into, const Token& token)
+{
+    const SourceLocation where = source.at(token);
+    std::string name = token.text.substr(1);
+    bool computed = false; // ${_${x}}: may stand for nothing, as in OpenFOAM
+    if (isBraced(name) && name.find('$') != std::string::npos) {
+        name = expandText(where, name.substr(1, name.size() - 2), into);
+        computed = true;
+    }
+    macros_->insert(name);
+    Token after;
+    const bool more = source.next(after);
+    if (more) {
+        source.waiting.push_front(after);
+    }
+    const bool alone = !more || is(after, ';') || is(after, '}');
+    const Found found = lookup(where, name, into, Match::patterns);
+    if (found.dictionary && !is(after, '{')) {
+        merge(into, *copy(*found.dictionary, into, where), where); // a copy: it may hold this very place
+    } else if (alone && found.entry) {
+        fail(where, "'" + token.text + ";' merges a dictionary, but '" + name + "' is a value",
+             "it is defined on line " + std::to_string(found.entry->where.line));
+    } else if (!(alone && computed && !found.entry)) {
+        std::vector<Token> tokens = expand(where, "$" + name, into);
+        source.waiting.insert(source.waiting.begin(), tokens.begin(), tokens.end());
+    }
+}
+
+DictionaryParser::Found DictionaryParser::lookup(const SourceLocation& where, std::string name,
+                                                 const Dictionary& scope, Match match) const
+{
+    if (isBraced(name)) {
+        name = name.substr(1, name.size() - 2);
+        name.resize(std::min({name.size(), name.find(":-"), name.find(":+")}));
+    }
+    if (name.empty() || name.find('{') != std::string::npos) {
+        return {};
+    }
+    const Dictionary* top = &scope;
+    while (top->parent_) {
+        top = top->parent_;
+    }
+    const Dictionary* start = &scope;
+    bool outwards = false;
+    const auto up = [&] {
+        if (!start->parent_) {
+            fail(where, "'$" + name + "' goes above the top of the file");
+        }
+        start = start->parent_;
+    };
+    if (name.front() == ':' || name.front() == '^') {
+        start = top;
+        name.erase(0, 1);
+    } else if (name.find('/') != std::string::npos) { // slash scoping
+        if (name.front() == '/') {
+            start = top;
+            name.erase(0, 1);
+        }
+        while (name.starts_with("./") || name.starts_with("../")) {
+            if (name[1] == '.') {
+                up();
+            }
+            name.erase(0, name.find('/') + 1);
+        }
+        std::ranges::replace(name, '/', '.');
+    } else if (name.front() == '.') { // .x here, ..x one up, and so on
+        name.erase(0, 1);
+        while (name.starts_with('.')) {
+            up();
+            name.erase(0, 1);
+        }
+        if (name.empty()) {
+            return {nullptr, start};
+        }
+    } else {
+        outwards = true;
+    }
+    for (const Dictionary* place = start; place; place = outwards ? place->parent_ : nullptr) {
+        if (const Entry* found = place->findScoped(name, match == Match::patterns)) {
+            return {found, found->dictionary.get()};
+        }
+    }
+    return {};
+}
+
+std::optional<std::string> DictionaryParser::environment(const std::string& name) const
+{
+    if (const char* value = std::getenv(name.c_str())) {
+        return value;
+    }
+    if (name == "FOAM_CASE" && !caseDirectory_.empty()) {
+        return caseDirectory_.string();
+    }
+    return std::nullopt;
+}
+
+std::vector<Token> DictionaryParser::expand(const SourceLocation& where, std::string_view variable,
+                                            const Dictionary& scope)
+{
+    const Level level(macroDepth_, deepestMacro, where, "macros are nested too deeply");
+    std::string name(variable.substr(1));
+    std::optional<std::string> text; // to be read into tokens
+    if (isBraced(name)) {
+        name = name.substr(1, name.size() - 2);
+        const std::size_t minus = name.find(":-");
+        const std::size_t plus = name.find(":+");
+        const std::size_t at = std::min(minus, plus); // ${name:-default} ${name:+alternative}
+        if (at != std::string::npos) {
+            const std::string other = name.substr(at + 2);
+            name = expandText(where, name.substr(0, at), scope);
+            const bool defined =
+                lookup(where, name, scope, Match::exact).entry || environment(name).value_or("") != "";
+            if (defined == (at == plus)) {
+                text = expandText(where, other, scope);
+            } else if (!defined) {
+                text = "";
+            }
+        } else {
+            name = expandText(where, name, scope);
+        }
+    }
+    const std::string bare = name.substr(std::min(name.find_first_not_of(":^./"), name.size()));
+    macros_->insert(bare);
+    macros_->insert(bare.substr(0, bare.find_first_of("./")));
+
+    std::vector<Token> tokens;
+    const Found found = text ? Found{} : lookup(where, name, scope, Match::exact);
+    if (!text && !found.entry && !found.dictionary) {
+        text = environment(name);
+    }
+    if (found.dictionary) {
+        appendEntries(tokens, *found.dictionary);
+    } else if (found.entry) {
+        tokens = found.entry->tokens;
+    } else if (text) {
+        Lexer lexer(*text, where.file);
+        Token token;
+        while (lexer.next(token)) {
+            tokens.push_back(std::move(token));
+        }
+    } else {
+        std::vector<std::string> known;
+        for (const Dictionary* place = &scope; place; place = place->parent_) {
+            for (const Entry& other : place->entries()) {
+                known.push_back(other.keyword);
+            }
+        }
+        const std::string near = nearestWord(name, known);
+        fail(where, "nothing is called '" + name + "' for the macro '$" + name + "'",
+             near.empty() ? "neither an entry above nor an environment variable"
+                          : "did you mean '$" + near + "'?");
+    }
+    for (Token& token : tokens) {
+        token.line = where.line;
+    }
+    spend(where, tokens.size() + 1);
+    return tokens;
+}
+
+std::string DictionaryParser::expandText(const SourceLocation& where, std::string_view text,
+                                         const Dictionary& scope)
+{
+    std::string result;
+    for (std::size_t i = 0; i < text.size();) {
+        if (text[i] != '$') {
+            result += text[i++];
+            continue;
+        }
+        std::size_t end = i + 1;
+        if (end < text.size() && (text[end] == '{' || text[end] == '[')) {
+            const char open = text[end];
+            const char close = open == '{' ? '}' : ']';
+            int depth = 0;
+            do {
+                depth += text[end] == open ? 1 : text[end] == close ? -1 : 0;
+                ++end;
+            } while (end < text.size() && depth > 0);
+        } else {
+            while (end < text.size() && isNameCharacter(text[end])) {
+                ++end;
+            }
+        }
+        std::string variable(text.substr(i, end - i));
+        if (variable.size() > 2 && variable[1] == '[') { // $[name]: the same
+            variable = "${" + variable.substr(2, variable.size() - 3) + "}";
+        }
+        if (variable.size() < 2) {
+            fail(where, "'$' without a name in '" + std::string(text.substr(0, 60)) + "'");
+        }
+        const std::string name = variable.substr(1);
+        const std::optional<std::string> fromEnvironment =
+            lookup(where, name, scope, Match::exact).entry
+                ? std::nullopt
+                : environment(isBraced(name) ? name.substr(1, name.size() - 2) : name);
+        if (fromEnvironment) { // as it stands: a path is not to be cut into tokens
+            result += *fromEnvironment;
+        } else {
+            std::string value;
+            for (const Token& token : expand(where, variable, scope)) {
+                value += (value.empty() ? "" : " ") + token.text;
+            }
+            result += value;
+        }
+        if (result.size() > longestText) {
+            fail(where, "macros expand to more than a million characters", "do they double themselves?");
+        }
+        i = end;
+    }
+    return result;
+}
+
+std::filesystem::path DictionaryParser::expandPath(const Source& source, std::string name,
+                                                   const Dictionary& scope)
+{
+    const auto replace = [&name](std::string_view tag, const std::filesystem::path& by) {
+        if (name.starts_with(tag)) {
+            name = (by / name.substr(std::min(name.size(), tag.size() + 1))).string();
+        }
+    };
+    const char* project = std::getenv("WM_PROJECT_DIR");
+    const std::filesystem::path etc =
+        std::filesystem::path(project ? project : "/usr/share/openfoam") / "etc";
+    const std::filesystem::path here =
+        caseDirectory_.empty() ? std::filesystem::current_path() : std::filesystem::absolute(caseDirectory_);
+    replace("<case>", here);
+    replace("<constant>", here / "constant");
+    replace("<system>", here / "system");
+    replace("<etc>", etc);
+    replace("~OpenFOAM", etc);
+    name = expandText(source.lexer.here(), name, scope);
+    const std::filesystem::path path(name);
+    return path.is_absolute() ? path : source.directory / path;
+}
+
+} // namespace caisson
