@@ -81,6 +81,12 @@ OnePhaseStep<Shape>::OnePhaseStep(const Scene& scene, State& state, bool axisymm
         }
     }
     problems.throwIfAny("the mesh and its bodies");
+    contactNode_.assign(mesh.nodes(), 0);
+    for (const BodySurface& surface : surfaces_) {
+        for (const SurfaceNode& node : surface.nodes) {
+            contactNode_[node.node] = 1;
+        }
+    }
 
     cells_.resize(cells);
     dilatation_.resize(cells);
@@ -554,7 +560,8 @@ void OnePhaseStep<Shape>::solveNodes(State& state, double dt)
         const double inverse = 1 / sum.mass;
         const double oldR = sum.momentumR * inverse;
         const double oldZ = sum.momentumZ * inverse;
-        if (damping > 0) { // Cundall 1987: opposes the motion with a share of the out-of-balance force
+        if (damping > 0 &&
+            !contactNode_[i]) { // Cundall 1987: opposes the motion with a share of the out-of-balance force
             sum.forceR -= std::copysign(damping * std::abs(sum.forceR), oldR);
             sum.forceZ -= std::copysign(damping * std::abs(sum.forceZ), oldZ);
         }

@@ -75,6 +75,8 @@ private:
     std::vector<int> cellNodes_; ///< corners in the order that Shape wants
     CompressedRows nodeCorners_; ///< around each node: cell * corners + corner
     std::vector<BodySurface> surfaces_;
+    std::vector<unsigned char>
+        contactNode_;                   ///< on a body: local damping would change normal force and friction
     std::vector<unsigned char> inside_; ///< per cell: inside a body
     std::vector<typename Shape::Cell> cells_;
     std::vector<Dilatation> dilatation_;
