@@ -94,7 +94,16 @@ const Dictionary* Dictionary::findDictionary(std::string_view keyword) const
     return entry ? entry->dictionary.get() : nullptr;
 }
 
-bool Dictionary::usedAsMacro(std::string_view keyword) const { return macros_ && macros_->contains(keyword); }
+bool Dictionary::usedAsMacro(std::string_view keyword) const
+{
+    return origin_ && origin_->macros.contains(keyword);
+}
+
+std::filesystem::path Dictionary::filePath(const std::string& name) const
+{
+    return DictionaryParser::filePath(name, origin_ ? origin_->caseDirectory : std::filesystem::path(),
+                                      where_);
+}
 
 std::string Dictionary::print() const
 {

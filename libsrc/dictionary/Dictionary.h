@@ -6,7 +6,6 @@
 #include <functional>
 #include <map>
 #include <memory>
-#include <set>
 #include <string>
 #include <string_view>
 #include <variant>
@@ -27,6 +26,7 @@ struct Token
 
 class Dictionary;
 class Pattern;
+struct DictionaryOrigin;
 
 /// One entry: a keyword with either a stream of tokens or a sub-dictionary.
 struct Entry
@@ -35,8 +35,9 @@ struct Entry
     bool isPattern = false; ///< keyword was quoted: a POSIX extended regular expression
     SourceLocation where;
     std::vector<Token> tokens;
-    std::shared_ptr<Dictionary> dictionary; ///< set where the entry is `keyword { ... }`
-    std::shared_ptr<const Pattern> pattern; ///< the compiled keyword, where isPattern
+    std::shared_ptr<Dictionary> dictionary;   ///< set where the entry is `keyword { ... }`
+    std::shared_ptr<const Pattern> pattern;   ///< the compiled keyword, where isPattern
+    std::shared_ptr<DictionaryOrigin> origin; ///< of the file
 };
 
 /// A dictionary in OpenFOAM's format, macros and directives already expanded.
@@ -54,6 +55,9 @@ public:
     [[nodiscard]] const SourceLocation& where() const { return where_; }
     /// Keywords that some macro of the same file referred to ($radius): they count as known keys.
     [[nodiscard]] bool usedAsMacro(std::string_view keyword) const;
+    /// Path of a file that a value names, as OpenFOAM takes it: <case>, <constant>, <system>, <etc> and
+    /// $environment are expanded, a relative path counts from the case directory. @throws InputError
+    [[nodiscard]] std::filesystem::path filePath(const std::string& name) const;
     /// In the form in which `foamDictionary -expand` prints it.
     [[nodiscard]] std::string print() const;
 
@@ -68,7 +72,7 @@ private:
     std::vector<Entry> entries_;
     std::map<std::string, std::size_t, std::less<>> index_; ///< place of each keyword in entries_
     bool hasPatterns_ = false;
-    std::shared_ptr<std::set<std::string, std::less<>>> macros_; ///< shared by all of one file
+    std::shared_ptr<DictionaryOrigin> origin_; ///< shared by all of one file
     std::string name_;
     SourceLocation where_;
     Dictionary* parent_ = nullptr; ///< while parsing only

@@ -67,9 +67,9 @@ bool DictionaryParser::Source::next(Token& token)
 }
 
 DictionaryParser::DictionaryParser(std::filesystem::path caseDirectory, bool includesAllowed)
-    : caseDirectory_(std::move(caseDirectory)), includesAllowed_(includesAllowed),
-      macros_(std::make_shared<std::set<std::string, std::less<>>>())
+    : origin_(std::make_shared<DictionaryOrigin>()), includesAllowed_(includesAllowed)
 {
+    origin_->caseDirectory = std::move(caseDirectory);
 }
 
 Dictionary DictionaryParser::parse(std::string_view text, const std::string& file,
@@ -78,7 +78,7 @@ Dictionary DictionaryParser::parse(std::string_view text, const std::string& fil
     Dictionary result;
     result.name_ = file;
     result.where_ = {file, 0};
-    result.macros_ = macros_;
+    result.origin_ = origin_;
     parseFile(text, file, directory, result);
     return result;
 }
@@ -126,7 +126,7 @@ std::shared_ptr<Dictionary> DictionaryParser::makeDictionary(Dictionary& parent,
     auto dictionary = std::make_shared<Dictionary>();
     dictionary->name_ = parent.name_ + "." + entry.keyword;
     dictionary->where_ = entry.where;
-    dictionary->macros_ = macros_;
+    dictionary->origin_ = origin_;
     dictionary->parent_ = &parent;
     return dictionary;
 }
@@ -144,6 +144,7 @@ void DictionaryParser::parseEntry(Source& source, Dictionary& into, const Token&
     Entry entry;
     entry.keyword = keyword.text;
     entry.where = where;
+    entry.origin = origin_;
     if (keyword.kind == Token::Kind::string) {
         entry.isPattern = true;
         try {
@@ -184,7 +185,7 @@ void DictionaryParser::parseEntry(Source& source, Dictionary& into, const Token&
             source.waiting.push_front(after);
         }
         if (dictionary && (!more || is(after, ';') || is(after, '}'))) {
-            macros_->insert(next.text.substr(1));
+            origin_->macros.insert(next.text.substr(1));
             entry.dictionary = copy(*dictionary, into, where);
             entry.dictionary->name_ = into.name_ + "." + entry.keyword;
             entry.dictionary->where_ = where;
@@ -354,6 +355,9 @@ std::vector<Dictionary> DictionaryParser::parseList(const Entry& entry, InputPro
             return complain("'" + tokens[i].text + "' is not a dictionary");
         }
         DictionaryParser parser({}, false);
+        if (entry.origin) {
+            parser.origin_ = entry.origin;
+        }
         const int line = tokens[i].line;
         Source source{Lexer("", entry.where.file, line), {}, {}};
         int depth = 0;
@@ -367,7 +371,7 @@ std::vector<Dictionary> DictionaryParser::parseList(const Entry& entry, InputPro
         Dictionary dictionary;
         dictionary.name_ = name.empty() ? entry.keyword : name;
         dictionary.where_ = {entry.where.file, line};
-        dictionary.macros_ = parser.macros_;
+        dictionary.origin_ = parser.origin_;
         try {
             parser.parseEntries(source, dictionary, true);
         } catch (const InputError& error) {

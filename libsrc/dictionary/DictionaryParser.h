@@ -5,8 +5,16 @@
 #include <deque>
 #include <filesystem>
 #include <optional>
+#include <set>
 
 namespace caisson {
+
+/// What all dictionaries of one file share.
+struct DictionaryOrigin
+{
+    std::set<std::string, std::less<>> macros; ///< keywords that some $macro referred to
+    std::filesystem::path caseDirectory;
+};
 
 /// Builds a Dictionary from text: entries, macros, directives. One parser per file that the user names;
 /// included files are read by the same parser into the dictionary that includes them.
@@ -20,6 +28,9 @@ public:
     Dictionary parse(std::string_view text, const std::string& file, const std::filesystem::path& directory);
     /// The dictionaries of a list of tokens.
     static std::vector<Dictionary> parseList(const Entry& entry, InputProblems& problems);
+    /// Dictionary::filePath
+    static std::filesystem::path filePath(const std::string& name, const std::filesystem::path& caseDirectory,
+                                          const SourceLocation& where);
 
 private:
     enum class InputMode { merge, overwrite, protect, warn, error };
@@ -82,7 +93,9 @@ private:
     /// `text` with its $variables replaced by what they stand for.
     std::string expandText(const SourceLocation& where, std::string_view text, const Dictionary& scope);
     [[nodiscard]] std::optional<std::string> environment(const std::string& name) const;
-    std::filesystem::path expandPath(const Source& source, std::string name, const Dictionary& scope);
+    /// The path that `name` stands for, relative ones counted from `directory`.
+    std::filesystem::path expandPath(const SourceLocation& where, const std::filesystem::path& directory,
+                                     std::string name, const Dictionary& scope);
 
     /// Counts what macros bring in, against input that doubles itself.
     void spend(const SourceLocation& where, std::size_t amount);
@@ -101,9 +114,8 @@ private:
         int& depth_;
     };
 
-    std::filesystem::path caseDirectory_;
+    std::shared_ptr<DictionaryOrigin> origin_;
     bool includesAllowed_;
-    std::shared_ptr<std::set<std::string, std::less<>>> macros_;
     InputMode mode_ = InputMode::merge;
     int depth_ = 0;        ///< of dictionaries
     int macroDepth_ = 0;   ///< of macros within macros

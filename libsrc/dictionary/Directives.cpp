@@ -205,7 +205,7 @@ std::optional<std::string> DictionaryParser::includedText(Source& source, const 
             }
         }
     } else {
-        path = expandPath(source, name.text, scope);
+        path = expandPath(where, source.directory, name.text, scope);
         text = readTextFile(path);
     }
     if (!text && (directive.text == "#include" || directive.text == "#includeEtc")) {
@@ -260,7 +260,7 @@ void DictionaryParser::includeFunction(Source& source, Dictionary& into, const T
         fail(where, "#includeFunc is not allowed here", "this text comes from no file");
     }
     const std::string function = name.text.substr(0, name.text.find('('));
-    std::filesystem::path found = caseDirectory_ / "system" / function;
+    std::filesystem::path found = origin_->caseDirectory / "system" / function;
     std::optional<std::string> text = readTextFile(found);
     for (const auto& etc : etcDirectories()) {
         const std::filesystem::path root = etc / "caseDicts/postProcessing";

@@ -1,5 +1,6 @@
 #include "dictionary/KeywordReader.h"
 
+#include "dictionary/Pattern.h"
 #include "dictionary/Units.h"
 
 #include <algorithm>
@@ -75,30 +76,121 @@ const Keyword& keywordOf(std::span<const Keyword> table, std::string_view key)
     return *found;
 }
 
-std::string spell(const std::vector<Token>& tokens)
+std::string spell(const Entry& entry)
 {
-    std::string text;
-    for (const Token& token : tokens) {
-        text += (text.empty() ? "" : " ") + token.text;
+    if (entry.dictionary) {
+        return "{...}";
     }
-    return text.size() > 60 ? text.substr(0, 57) + "..." : text;
+    std::string text;
+    for (const Token& token : entry.tokens) {
+        text += (text.empty() ? "" : " ") + token.text;
+        if (text.size() > 60) {
+            return text.substr(0, 57) + "...";
+        }
+    }
+    return text;
 }
+
+/// `hint`, or, where the value goes on in the next line, what the reason may be.
+std::string semicolonHint(const Entry& entry, std::string hint)
+{
+    const bool longer = !entry.tokens.empty() && entry.tokens.back().line > entry.where.line;
+    return longer ? "is the ';' missing at the end of the line?" : hint;
+}
+
+bool isPunctuation(const Token& token, char c)
+{
+    return token.kind == Token::Kind::punctuation && token.text[0] == c;
+}
+
+/// Lists of numbers: `(a b c)`, `3(a b c)`, `3{a}`, and rows of these.
+class ListReader
+{
+public:
+    explicit ListReader(std::span<const Token> tokens) : tokens_(tokens) {}
+
+    /// One row, or a list of rows; no other token, none of them empty. @returns whether it is that
+    bool readRows(std::vector<std::vector<double>>& rows)
+    {
+        skipWord("uniform");
+        skipWord("constant");
+        skipWord("nonuniform");
+        if (at(0) && at(0)->kind == Token::Kind::word && at(0)->text.starts_with("List<")) {
+            tokens_ = tokens_.subspan(1);
+        }
+        const std::optional<double> count = readCount();
+        if (at(0) && at(1) && isPunctuation(*at(0), '(') &&
+            (isPunctuation(*at(1), '(') || (at(2) && isPunctuation(*at(2), '(')))) {
+            tokens_ = tokens_.subspan(1);
+            while (at(0) && !isPunctuation(*at(0), ')')) {
+                rows.emplace_back();
+                if (!readRow(readCount(), rows.back())) {
+                    return false;
+                }
+            }
+            return tokens_.size() == 1 && (!count || *count == static_cast<double>(rows.size()));
+        }
+        rows.emplace_back();
+        return readRow(count, rows.back()) && tokens_.empty();
+    }
+
+private:
+    [[nodiscard]] const Token* at(std::size_t i) const { return i < tokens_.size() ? &tokens_[i] : nullptr; }
+
+    void skipWord(std::string_view word)
+    {
+        if (at(0) && at(0)->kind == Token::Kind::word && at(0)->text == word) {
+            tokens_ = tokens_.subspan(1);
+        }
+    }
+    std::optional<double> readCount()
+    {
+        if (!at(0) || !at(0)->isInteger) {
+            return std::nullopt;
+        }
+        const double count = at(0)->number;
+        tokens_ = tokens_.subspan(1);
+        return count;
+    }
+    bool readRow(std::optional<double> count, std::vector<double>& row)
+    {
+        constexpr double longest = 1e7; // of N{v}
+        if (count && at(2) && isPunctuation(*at(0), '{') && at(1)->kind == Token::Kind::number &&
+            isPunctuation(*at(2), '}') && *count > 0 && *count <= longest) {
+            row.assign(static_cast<std::size_t>(*count), at(1)->number);
+            tokens_ = tokens_.subspan(3);
+            return true;
+        }
+        if (!at(0) || !isPunctuation(*at(0), '(')) {
+            return false;
+        }
+        tokens_ = tokens_.subspan(1);
+        while (at(0) && at(0)->kind == Token::Kind::number && std::isfinite(at(0)->number)) {
+            row.push_back(at(0)->number);
+            tokens_ = tokens_.subspan(1);
+        }
+        if (!at(0) || !isPunctuation(*at(0), ')')) {
+            return false;
+        }
+        tokens_ = tokens_.subspan(1);
+        return !row.empty() && (!count || *count == static_cast<double>(row.size()));
+    }
+
+    std::span<const Token> tokens_;
+};
 
 /// The value's tokens: without a leading name (legacy `nu nu [..] 1`) and dimension set, which is checked.
 std::span<const Token> valueTokens(const Entry& entry, const Keyword& keyword, InputProblems& problems)
 {
     std::span<const Token> tokens = entry.tokens;
-    const auto isBracket = [](const Token& token, char c) {
-        return token.kind == Token::Kind::punctuation && token.text[0] == c;
-    };
-    if (tokens.size() > 1 && tokens[0].kind == Token::Kind::word && isBracket(tokens[1], '[')) {
+    if (tokens.size() > 1 && tokens[0].kind == Token::Kind::word && isPunctuation(tokens[1], '[')) {
         tokens = tokens.subspan(1);
     }
-    if (tokens.empty() || !isBracket(tokens[0], '[')) {
+    if (tokens.empty() || !isPunctuation(tokens[0], '[')) {
         return tokens;
     }
     std::size_t close = 0;
-    while (close < tokens.size() && !isBracket(tokens[close], ']')) {
+    while (close < tokens.size() && !isPunctuation(tokens[close], ']')) {
         ++close;
     }
     if (close == tokens.size()) {
@@ -132,6 +224,15 @@ std::span<const Token> valueTokens(const Entry& entry, const Keyword& keyword, I
     return tokens.subspan(close + 1);
 }
 
+void checkWord(const Entry& entry, const Keyword& keyword, const std::string& word, InputProblems& problems)
+{
+    const std::vector<std::string> valid = split(keyword.range);
+    if (!valid.empty() && std::ranges::find(valid, word) == valid.end()) {
+        problems.add(entry.where, "unknown word '" + word + "' for " + std::string(keyword.name),
+                     suggestion(word, valid, ""));
+    }
+}
+
 } // namespace
 
 KeywordReader::KeywordReader(const Dictionary& dictionary, std::span<const Keyword> table,
@@ -145,9 +246,15 @@ KeywordReader::KeywordReader(const Dictionary& dictionary, std::span<const Keywo
     for (const Entry& entry : dictionary_.entries()) {
         const bool coefficients = entry.keyword.ends_with("Coeffs") &&
                                   findKeyword(table_, entry.keyword.substr(0, entry.keyword.size() - 6));
-        if (!findKeyword(table_, entry.keyword) && entry.keyword != "FoamFile" && !coefficients &&
-            !entry.isPattern && !dictionary_.usedAsMacro(entry.keyword)) {
-            problems_.add(entry.where, "unknown key '" + entry.keyword + "' in " + what_,
+        const bool known =
+            entry.isPattern
+                ? std::ranges::any_of(valid, [&](const auto& name) { return entry.pattern->matches(name); })
+                : findKeyword(table_, entry.keyword) || entry.keyword == "FoamFile" || coefficients ||
+                      dictionary_.usedAsMacro(entry.keyword);
+        if (!known) {
+            problems_.add(entry.where,
+                          entry.isPattern ? "\"" + entry.keyword + "\" matches no key of " + what_
+                                          : "unknown key '" + entry.keyword + "' in " + what_,
                           suggestion(entry.keyword, valid, "keys"));
         }
     }
@@ -193,10 +300,8 @@ double KeywordReader::number(std::string_view key) const
     }
     const auto tokens = valueTokens(*found, keyword, problems_);
     if (found->dictionary || tokens.size() != 1 || tokens[0].kind != Token::Kind::number) {
-        problems_.add(found->where,
-                      "'" + std::string(key) + "' is '" +
-                          (found->dictionary ? "{...}" : spell(found->tokens)) + "', not a number",
-                      "unit: " + std::string(keyword.unit));
+        problems_.add(found->where, "'" + std::string(key) + "' is '" + spell(*found) + "', not a number",
+                      semicolonHint(*found, "unit: " + std::string(keyword.unit)));
         return 0;
     }
     value = tokens[0].number;
@@ -212,9 +317,10 @@ long KeywordReader::integer(std::string_view key) const
 {
     const Entry* found = dictionary_.find(key);
     const double value = number(key);
-    if (found && value != std::floor(value)) {
+    constexpr double largest = 9e15; // whole numbers that a double holds
+    if (found && (value != std::floor(value) || std::abs(value) > largest)) {
         problems_.add(found->where,
-                      "'" + std::string(key) + "' is '" + spell(found->tokens) + "', not a whole number");
+                      "'" + std::string(key) + "' is '" + spell(*found) + "', not a whole number");
         return 0;
     }
     const Keyword& keyword = keywordOf(table_, key);
@@ -222,7 +328,7 @@ long KeywordReader::integer(std::string_view key) const
         const auto valid = split(keyword.range);
         if (std::ranges::find(valid, std::to_string(static_cast<long>(value))) == valid.end()) {
             problems_.add(found->where,
-                          std::string(key) + " " + spell(found->tokens) + " is not among the valid ones",
+                          std::string(key) + " " + spell(*found) + " is not among the valid ones",
                           "valid: " + std::string(keyword.range));
         }
     }
@@ -234,7 +340,7 @@ bool KeywordReader::flag(std::string_view key) const
     const Keyword& keyword = keywordOf(table_, key);
     const Entry* found = entry(key);
     const std::string text = found && found->tokens.size() == 1 ? found->tokens[0].text
-                             : found                            ? spell(found->tokens)
+                             : found                            ? spell(*found)
                                                                 : std::string(keyword.defaultValue);
     for (const std::string_view yes : {"yes", "on", "true", "y", "t"}) {
         if (text == yes) {
@@ -248,7 +354,7 @@ bool KeywordReader::flag(std::string_view key) const
     }
     if (found) {
         problems_.add(found->where, "'" + std::string(key) + "' is '" + text + "', not a flag",
-                      "valid: yes no on off true false");
+                      semicolonHint(*found, "valid: yes no on off true false"));
     }
     return false;
 }
@@ -262,20 +368,13 @@ std::string KeywordReader::word(std::string_view key) const
     }
     if (found->dictionary || found->tokens.size() != 1 ||
         (found->tokens[0].kind != Token::Kind::word && found->tokens[0].kind != Token::Kind::string)) {
-        problems_.add(found->where,
-                      "'" + std::string(key) + "' is '" +
-                          (found->dictionary ? "{...}" : spell(found->tokens)) + "', not one word",
-                      keyword.range.empty() ? "" : "valid: " + std::string(keyword.range));
+        problems_.add(
+            found->where, "'" + std::string(key) + "' is '" + spell(*found) + "', not one word",
+            semicolonHint(*found, keyword.range.empty() ? "" : "valid: " + std::string(keyword.range)));
         return {};
     }
     std::string text = found->tokens[0].text;
-    if (!keyword.range.empty()) {
-        const std::vector<std::string> valid = split(keyword.range);
-        if (std::ranges::find(valid, text) == valid.end()) {
-            problems_.add(found->where, "unknown word '" + text + "' for " + std::string(key),
-                          suggestion(text, valid, ""));
-        }
-    }
+    checkWord(*found, keyword, text, problems_);
     return text;
 }
 
@@ -287,21 +386,19 @@ std::vector<std::string> KeywordReader::words(std::string_view key) const
     if (!found) {
         return keyword.defaultValue == optionalKey ? result : split(keyword.defaultValue);
     }
-    for (const Token& token : found->tokens) {
+    std::span<const Token> tokens = found->tokens;
+    if (tokens.size() > 1 && tokens[0].isInteger && isPunctuation(tokens[1], '(')) {
+        tokens = tokens.subspan(1); // the count that may stand before a list
+    }
+    if (found->dictionary) {
+        problem(key, "'" + std::string(key) + "' is '{...}', not a list of words");
+    }
+    for (const Token& token : tokens) {
         if (token.kind == Token::Kind::word || token.kind == Token::Kind::string) {
+            checkWord(*found, keyword, token.text, problems_);
             result.push_back(token.text);
-            if (!keyword.range.empty()) {
-                const std::vector<std::string> valid = split(keyword.range);
-                if (std::ranges::find(valid, token.text) == valid.end()) {
-                    problems_.add(found->where, "unknown word '" + token.text + "' for " + std::string(key),
-                                  suggestion(token.text, valid, ""));
-                }
-            }
-        } else if (token.kind == Token::Kind::number) {
-            // The count that may stand before a list.
-            continue;
-        } else if (token.kind != Token::Kind::punctuation) {
-            problems_.add(found->where, "'" + std::string(key) + "': '" + token.text + "' is not a word");
+        } else if (!isPunctuation(token, '(') && !isPunctuation(token, ')')) {
+            problem(key, "'" + std::string(key) + "': '" + token.text + "' is not a word");
         }
     }
     return result;
@@ -309,50 +406,34 @@ std::vector<std::string> KeywordReader::words(std::string_view key) const
 
 std::vector<double> KeywordReader::numbers(std::string_view key) const
 {
-    std::vector<double> result;
-    for (const auto& row : rows(key)) {
-        result.insert(result.end(), row.begin(), row.end());
+    const auto lists = rows(key);
+    if (lists.size() > 1) {
+        problem(key, "'" + std::string(key) + "' is a list of lists, not one list", "write (a b c)");
+        return {};
     }
-    return result;
+    return lists.empty() ? std::vector<double>() : lists[0];
 }
 
 std::vector<std::vector<double>> KeywordReader::rows(std::string_view key) const
 {
-    std::vector<std::vector<double>> result;
     const Keyword& keyword = keywordOf(table_, key);
     const Entry* found = entry(key);
     if (!found) {
-        if (keyword.defaultValue.starts_with('(')) {
-            result.emplace_back();
-            for (const std::string& item :
-                 split(keyword.defaultValue.substr(1, keyword.defaultValue.size() - 2))) {
-                result.back().push_back(parseBound(item));
-            }
+        const std::string_view value = keyword.defaultValue;
+        if (!value.starts_with('(')) {
+            return {};
         }
-        return result;
-    }
-    int depth = 0;
-    bool good = !found->dictionary;
-    for (const Token& token : valueTokens(*found, keyword, problems_)) {
-        if (token.kind == Token::Kind::punctuation && token.text == "(") {
-            if (++depth == 2 || (depth == 1 && result.empty())) {
-                result.emplace_back();
-            }
-        } else if (token.kind == Token::Kind::punctuation && token.text == ")") {
-            --depth;
-        } else if (token.kind == Token::Kind::number && depth > 0) {
-            result.back().push_back(token.number);
-        } else if (token.kind == Token::Kind::number && depth == 0 && result.empty()) {
-            continue; // the count before a list
-        } else if (!(token.kind == Token::Kind::word &&
-                     (token.text == "uniform" || token.text == "constant"))) {
-            good = false;
+        std::vector<double> row;
+        for (const std::string& item : split(value.substr(1, value.size() - 2))) {
+            row.push_back(parseBound(item));
         }
+        return {row};
     }
-    std::erase_if(result, [](const auto& row) { return row.empty(); });
-    if (!good || result.empty() || depth != 0) {
+    std::vector<std::vector<double>> result;
+    ListReader list(valueTokens(*found, keyword, problems_));
+    if (found->dictionary || !list.readRows(result)) {
         problems_.add(found->where,
-                      "'" + std::string(key) + "' is '" + spell(found->tokens) + "', not a list of numbers",
+                      "'" + std::string(key) + "' is '" + spell(*found) + "', not a list of numbers",
                       "write (a b c) or ((a b) (c d))");
         result.clear();
     }

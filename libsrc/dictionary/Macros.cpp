@@ -60,7 +60,7 @@ void DictionaryParser::mergeVariable(Source& source, Dictionary& into, const Tok
         name = expandText(where, name.substr(1, name.size() - 2), into);
         computed = true;
     }
-    macros_->insert(name);
+    origin_->macros.insert(name);
     Token after;
     const bool more = source.next(after);
     if (more) {
@@ -141,8 +141,8 @@ std::optional<std::string> DictionaryParser::environment(const std::string& name
     if (const char* value = std::getenv(name.c_str())) {
         return value;
     }
-    if (name == "FOAM_CASE" && !caseDirectory_.empty()) {
-        return caseDirectory_.string();
+    if (name == "FOAM_CASE" && !origin_->caseDirectory.empty()) {
+        return origin_->caseDirectory.string();
     }
     return std::nullopt;
 }
@@ -173,8 +173,8 @@ std::vector<Token> DictionaryParser::expand(const SourceLocation& where, std::st
         }
     }
     const std::string bare = name.substr(std::min(name.find_first_not_of(":^./"), name.size()));
-    macros_->insert(bare);
-    macros_->insert(bare.substr(0, bare.find_first_of("./")));
+    origin_->macros.insert(bare);
+    origin_->macros.insert(bare.substr(0, bare.find_first_of("./")));
 
     std::vector<Token> tokens;
     const Found found = text ? Found{} : lookup(where, name, scope, Match::exact);
@@ -262,7 +262,15 @@ std::string DictionaryParser::expandText(const SourceLocation& where, std::strin
     return result;
 }
 
-std::filesystem::path DictionaryParser::expandPath(const Source& source, std::string name,
+std::filesystem::path DictionaryParser::filePath(const std::string& name,
+                                                 const std::filesystem::path& caseDirectory,
+                                                 const SourceLocation& where)
+{
+    return DictionaryParser(caseDirectory, false).expandPath(where, caseDirectory, name, Dictionary());
+}
+
+std::filesystem::path DictionaryParser::expandPath(const SourceLocation& where,
+                                                   const std::filesystem::path& directory, std::string name,
                                                    const Dictionary& scope)
 {
     const auto replace = [&name](std::string_view tag, const std::filesystem::path& by) {
@@ -273,16 +281,17 @@ std::filesystem::path DictionaryParser::expandPath(const Source& source, std::st
     const char* project = std::getenv("WM_PROJECT_DIR");
     const std::filesystem::path etc =
         std::filesystem::path(project ? project : "/usr/share/openfoam") / "etc";
-    const std::filesystem::path here =
-        caseDirectory_.empty() ? std::filesystem::current_path() : std::filesystem::absolute(caseDirectory_);
+    const std::filesystem::path here = origin_->caseDirectory.empty()
+                                           ? std::filesystem::current_path()
+                                           : std::filesystem::absolute(origin_->caseDirectory);
     replace("<case>", here);
     replace("<constant>", here / "constant");
     replace("<system>", here / "system");
     replace("<etc>", etc);
     replace("~OpenFOAM", etc);
-    name = expandText(source.lexer.here(), name, scope);
+    name = expandText(where, name, scope);
     const std::filesystem::path path(name);
-    return path.is_absolute() ? path : source.directory / path;
+    return path.is_absolute() ? path : directory / path;
 }
 
 } // namespace caisson

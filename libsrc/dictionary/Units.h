@@ -10,8 +10,8 @@ namespace caisson {
 /// Exponents of kg, m, s, K, mol, A, cd: OpenFOAM's order.
 using Dimensions = std::array<double, 7>;
 
-/// Dimensions of a unit such as "kg/m3", "m/s2", "Pa", "Pa s", "1/m", "-", "deg"; nothing where it is no unit
-/// ("word", "list", ...).
+/// Dimensions of a unit such as "kg/m3", "m/s2", "Pa", "Pa s", "1/m", "-", "deg"; nothing where it is no SI
+/// unit ("word", "list", "kPa" ...).
 std::optional<Dimensions> dimensionsOf(std::string_view unit);
 
 /// "[1 -1 -2 0 0 0 0]"

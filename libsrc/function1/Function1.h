@@ -11,6 +11,7 @@ class Function1
 {
 public:
     virtual ~Function1() = default;
+    /// @throws InputError beyond the ends of a table with outOfBounds error
     [[nodiscard]] virtual double value(double x) const = 0;
     /// Largest x up to which the function is defined (tables with outOfBounds error); infinity otherwise.
     [[nodiscard]] virtual double end() const;
@@ -20,7 +21,8 @@ std::unique_ptr<Function1> constantFunction1(double value);
 
 /// Reads `key` of `dictionary` in any of the spellings of OpenFOAM v1912 and v2406: bare number, inline
 /// `table ((x y) ...)`, `key tableFile; tableFileCoeffs {}`, in-place `key { type table; values (...); }`.
-/// Unknown types, missing files and bad values become problems; then a constant zero is returned.
+/// Files are sought as Dictionary::filePath says. Unknown types and keys, missing files and bad values become
+/// problems; then a constant zero is returned.
 std::unique_ptr<Function1> readFunction1(const Dictionary& dictionary, std::string_view key,
                                          InputProblems& problems);
 
