@@ -313,6 +313,10 @@ std::vector<Keyword> seedRegionKeywords(const std::string& type)
     return keywords;
 }
 
+std::span<const Keyword> seedRefinementKeywords() { return refinementKeywords; }
+
+std::span<const Keyword> seedVelocityKeywords() { return velocityKeywords; }
+
 std::vector<SeedRegion> readSeedRegions(const std::vector<Dictionary>& regions, const BackgroundMesh& mesh,
                                         const std::vector<Material>& materials, InputProblems& problems)
 {

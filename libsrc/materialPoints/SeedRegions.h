@@ -42,6 +42,8 @@ struct SeedRegion
 std::vector<std::string> seedRegionTypes();
 /// Keywords of a region of the given type, for reading and the user guide.
 std::vector<Keyword> seedRegionKeywords(const std::string& type);
+std::span<const Keyword> seedRefinementKeywords(); ///< of one of a region's refinements
+std::span<const Keyword> seedVelocityKeywords();   ///< of a region's velocity
 
 /// Reads `regions ( { type box; min (0 -20); max (15 0); material sand; pointsPerCell (2 2); } ... );`.
 std::vector<SeedRegion> readSeedRegions(const std::vector<Dictionary>& regions, const BackgroundMesh& mesh,

@@ -12,7 +12,7 @@ namespace caisson {
 
 namespace {
 
-constexpr Keyword gravityKeywords[] = {
+constexpr Keyword gravityTable[] = {
     {"dimensions", "list", "-", "", "[0 1 -2 0 0 0 0]"},
     {"value", "vector", "", "", "acceleration of gravity [m/s2]: (0 0 -9.81)"},
 };
@@ -120,6 +120,8 @@ void readPoints(const std::filesystem::path& start, CaseScene& result, InputProb
 
 } // namespace
 
+std::span<const Keyword> gravityKeywords() { return gravityTable; }
+
 std::vector<std::string> stateVariableNames(const std::vector<Material>& materials)
 {
     std::vector<std::string> names;
@@ -168,7 +170,7 @@ CaseScene readCaseScene(const std::filesystem::path& caseDirectory, const std::f
     }
     if (const auto dictionary = readCaseDictionary(caseDirectory, "constant/g",
                                                    "acceleration of gravity: value (0 0 -9.81);", problems)) {
-        const KeywordReader reader(*dictionary, gravityKeywords, "g", problems);
+        const KeywordReader reader(*dictionary, gravityTable, "g", problems);
         const auto value = reader.vector("value");
         scene.gravity = {value[0], value[2]};
         if (value[1] != 0) {

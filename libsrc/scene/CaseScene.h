@@ -28,6 +28,9 @@ CaseScene readCaseScene(const std::filesystem::path& caseDirectory, const std::f
                         bool restarted, const std::map<std::string, std::vector<double>>& kept,
                         InputProblems& problems);
 
+/// Keys of constant/g.
+std::span<const Keyword> gravityKeywords();
+
 /// The numbers of the state that are neither points nor cells: what uniform/time keeps.
 std::map<std::string, std::vector<double>> keptNumbers(const State& state);
 

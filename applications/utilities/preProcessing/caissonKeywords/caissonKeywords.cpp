@@ -1,0 +1,129 @@
+// caissonKeywords: the keywords of all dictionaries as one Markdown file, from the tables that read them.
+//
+// Usage: caissonKeywords [-check <file>]
+
+#include "../setMaterialPoints/SeedInput.h"
+#include "case/FileIO.h"
+#include "installation/InstallationInput.h"
+#include "mesh/MeshMotion.h"
+#include "scene/CaseScene.h"
+#include "scene/SolutionDict.h"
+
+#include <boost/program_options.hpp>
+
+#include <algorithm>
+#include <iostream>
+
+namespace {
+
+using namespace caisson;
+
+/// A place holder such as <name> would be taken for HTML.
+std::string table(const std::string& title, std::span<const Keyword> keywords)
+{
+    std::string text;
+    for (const char c : keywordTableMarkdown(title, keywords)) {
+        text += c == '<' ? "&lt;" : std::string(1, c);
+    }
+    return text + "\n";
+}
+
+/// Tables of a dictionary whose keys depend on a type word: the keys of every type once, then each type's
+/// own.
+template <class TableOf>
+std::string tables(const std::string& every, const std::string& each, const std::vector<std::string>& types,
+                   const TableOf& tableOf)
+{
+    const auto has = [&](const std::string& type, std::string_view key) {
+        const std::vector<Keyword> keywords = tableOf(type);
+        return std::ranges::any_of(keywords, [&](const Keyword& keyword) { return keyword.name == key; });
+    };
+    const auto shared = [&](const Keyword& keyword) {
+        return std::ranges::all_of(types, [&](const std::string& type) { return has(type, keyword.name); });
+    };
+    std::vector<Keyword> common = tableOf(types.front());
+    std::erase_if(common, [&](const Keyword& keyword) { return !shared(keyword); });
+    std::string text = table(every, common);
+    for (const std::string& type : types) {
+        std::vector<Keyword> own = tableOf(type);
+        std::erase_if(own, shared);
+        if (!own.empty()) {
+            text += table(each + " `" + type + "`", own);
+        }
+    }
+    return text;
+}
+
+std::string allTables()
+{
+    std::string text = "# Keywords\n\n"
+                       "Printed by `caissonKeywords` from the tables that the programs read with. `required` "
+                       "in the third column: there is no default;\n`none`: may be left out. Intervals: `[` "
+                       "includes the end, `(` does not. SI units. `Function1` and `flag` are explained in\n"
+                       "[Dictionaries](dictionaries.md).\n\n";
+    text += "## system/controlDict\n\n" + table("controlDict", controlDictKeywords());
+    text += "## system/mpmSolution\n\n" + table("mpmSolution", solutionKeywords());
+    text += "## system/setMaterialPointsDict\n\n" +
+            table("setMaterialPointsDict", setMaterialPointsKeywords()) +
+            tables("every region", "region of type", seedRegionTypes(), seedRegionKeywords) +
+            table("a refinement of a region", seedRefinementKeywords()) +
+            table("velocity of a region", seedVelocityKeywords()) +
+            tables("initialState", "initialState of type", initialStateTypes(), initialStateKeywords);
+    text += "## constant/materialProperties\n\nOne sub-dictionary per material.\n\n" +
+            tables("every material", "material with law", constitutiveLawTypes(), materialKeywords);
+    text += "## constant/bodies\n\nOne sub-dictionary per body.\n\n" +
+            tables("every body", "body of shape", bodyShapes(), bodyKeywords);
+    text += "## constant/dynamicMeshDict\n\n" + table("dynamicMeshDict", meshMotionKeywords());
+    text += "## constant/g\n\n" + table("g", gravityKeywords());
+    text += "## system/suctionPressureDict\n\n";
+    for (const InstallationKeywords& part : installationKeywords()) {
+        text += table(part.title, part.keywords);
+    }
+    text.pop_back(); // no empty line at the end
+    return text;
+}
+
+int check(const std::filesystem::path& file)
+{
+    if (readFile(file, file.string()) == allTables()) {
+        return 0;
+    }
+    std::cerr << file.string() << " is not what the programs read any more; renew it with\n"
+              << "    caissonKeywords > doc/userGuide/keywords.md\n";
+    return 1;
+}
+
+} // namespace
+
+int main(int argc, char* argv[])
+{
+    namespace options = boost::program_options;
+    options::options_description visible("Options");
+    visible.add_options()("check", options::value<std::string>(),
+                          "compare the tables with those of a file; status 1 where they differ")(
+        "help", "print this and exit");
+    try {
+        namespace style = options::command_line_style;
+        options::variables_map given;
+        options::store(options::command_line_parser(argc, argv)
+                           .options(visible)
+                           .positional({})
+                           .style((style::unix_style | style::allow_long_disguise) & ~style::allow_guessing)
+                           .run(),
+                       given);
+        if (given.contains("help")) {
+            std::cout << "Usage: caissonKeywords [-check FILE]\n\n"
+                         "Prints the keywords of all dictionaries as Markdown.\n\n"
+                      << visible;
+            return 0;
+        }
+        if (given.contains("check")) {
+            return check(given["check"].as<std::string>());
+        }
+        std::cout << allTables();
+        return 0;
+    } catch (const std::exception& error) {
+        std::cerr << "--> CAISSONFOAM FATAL ERROR : " << error.what() << "\n    see caissonKeywords -help\n";
+    }
+    return 1;
+}
