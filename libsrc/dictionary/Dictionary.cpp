@@ -114,7 +114,7 @@ std::string Dictionary::print() const
 
 void Dictionary::print(std::string& text, int depth) const
 {
-    const std::string indent(4 * depth, ' ');
+    const std::string indent(4 * static_cast<std::size_t>(depth), ' ');
     for (const Entry& entry : entries_) {
         text += indent;
         if (entry.isPattern) {
@@ -156,7 +156,7 @@ Dictionary readDictionary(const std::filesystem::path& file, const std::filesyst
     return DictionaryParser(caseDirectory, true).parse(*text, displayName, file.parent_path());
 }
 
-Dictionary parseDictionary(std::string_view text, std::string displayName,
+Dictionary parseDictionary(std::string_view text, const std::string& displayName,
                            const std::filesystem::path& caseDirectory)
 {
     return DictionaryParser(caseDirectory, !caseDirectory.empty()).parse(text, displayName, caseDirectory);

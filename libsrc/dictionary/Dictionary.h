@@ -90,7 +90,7 @@ Dictionary readDictionary(const std::filesystem::path& file, const std::filesyst
                           std::string displayName = {});
 
 /// The same for text in memory.
-Dictionary parseDictionary(std::string_view text, std::string displayName = "text",
+Dictionary parseDictionary(std::string_view text, const std::string& displayName = "text",
                            const std::filesystem::path& caseDirectory = {});
 
 } // namespace caisson

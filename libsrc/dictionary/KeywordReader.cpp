@@ -12,7 +12,7 @@ namespace caisson {
 
 namespace {
 
-constexpr std::string_view required = "";
+constexpr std::string_view required;
 constexpr std::string_view optionalKey = "-";
 
 std::vector<std::string> split(std::string_view text)
@@ -95,7 +95,7 @@ std::string spell(const Entry& entry)
 std::string semicolonHint(const Entry& entry, std::string hint)
 {
     const bool longer = !entry.tokens.empty() && entry.tokens.back().line > entry.where.line;
-    return longer ? "is the ';' missing at the end of the line?" : hint;
+    return longer ? "is the ';' missing at the end of the line?" : std::move(hint);
 }
 
 bool isPunctuation(const Token& token, char c)
