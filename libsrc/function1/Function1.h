@@ -36,4 +36,8 @@ struct VectorFunction1
 VectorFunction1 readVectorFunction1(const Dictionary& dictionary, std::string_view key,
                                     InputProblems& problems);
 
+/// Type words, and the keys of a type's dictionary, for the user guide.
+std::vector<std::string> function1Types();
+std::vector<Keyword> function1Keywords(const std::string& type);
+
 } // namespace caisson

@@ -89,7 +89,6 @@ public:
 
     std::unique_ptr<Function1> read();
 
-private:
     using Result = std::unique_ptr<Function1>;
     using Tokens = std::span<const Token>;
 
@@ -104,6 +103,7 @@ private:
     };
     static std::span<const Type> types();
 
+private:
     Result readType(const std::string& word, const Dictionary* coefficients, Tokens inlineValue);
     Result readConstant(const KeywordReader& keys, Tokens inlineValue);
     Result readZero(const KeywordReader&, Tokens) { return constantFunction1(0); }
@@ -514,6 +514,24 @@ Reader::Result Reader::readMapper(const KeywordReader& keys, Tokens)
 }
 
 } // namespace
+
+std::vector<std::string> function1Types()
+{
+    std::vector<std::string> words;
+    for (const Reader::Type& type : Reader::types()) {
+        words.emplace_back(type.name);
+    }
+    return words;
+}
+
+std::vector<Keyword> function1Keywords(const std::string& type)
+{
+    const auto found = std::ranges::find(Reader::types(), type, &Reader::Type::name);
+    if (found == Reader::types().end()) {
+        throw std::out_of_range("unknown Function1 type '" + type + "'");
+    }
+    return {found->keys.begin(), found->keys.end()};
+}
 
 std::unique_ptr<Function1> readFunction1(const Dictionary& dictionary, std::string_view key,
                                          InputProblems& problems)

@@ -44,11 +44,20 @@ std::string tables(const std::string& every, const std::string& each, const std:
     std::vector<Keyword> common = tableOf(types.front());
     std::erase_if(common, [&](const Keyword& keyword) { return !shared(keyword); });
     std::string text = table(every, common);
-    for (const std::string& type : types) {
-        std::vector<Keyword> own = tableOf(type);
-        std::erase_if(own, shared);
-        if (!own.empty()) {
-            text += table(each + " `" + type + "`", own);
+    const auto own = [&](const std::string& type) {
+        std::vector<Keyword> keywords = tableOf(type);
+        std::erase_if(keywords, shared);
+        return keywords;
+    };
+    for (std::size_t i = 0; i < types.size();) { // neighbours of equal keys share a table
+        const std::vector<Keyword> keywords = own(types[i]);
+        const std::string body = table("", keywords);
+        std::string title = each + " `" + types[i] + "`";
+        while (++i < types.size() && table("", own(types[i])) == body) {
+            title += ", `" + types[i] + "`";
+        }
+        if (!keywords.empty()) {
+            text += table(title, keywords);
         }
     }
     return text;
@@ -79,6 +88,10 @@ std::string allTables()
     for (const InstallationKeywords& part : installationKeywords()) {
         text += table(part.title, part.keywords);
     }
+    text +=
+        "## Function1\n\n`type` is a key where the function is a dictionary; otherwise it stands before the "
+        "value.\n\n" +
+        tables("every Function1", "Function1 of type", function1Types(), function1Keywords);
     text.pop_back(); // no empty line at the end
     return text;
 }
