@@ -155,15 +155,19 @@ void DictionaryParser::setInputMode(Source& source, const Token& directive)
 
 void DictionaryParser::remove(Source& source, Dictionary& into)
 {
+    const SourceLocation where = source.lexer.here();
     Token token;
-    source.next(token);
     std::vector<Token> names;
-    if (is(token, '(')) {
-        while (source.next(token) && !is(token, ')')) {
+    bool complete = source.next(token);
+    if (complete && is(token, '(')) {
+        while ((complete = source.next(token)) && !is(token, ')')) {
             names.push_back(token);
         }
     } else {
         names.push_back(token);
+    }
+    if (!complete) {
+        fail(where, "#remove without an end", "write #remove name  or  #remove (name name)");
     }
     for (const Token& name : names) {
         if (name.kind != Token::Kind::string) {

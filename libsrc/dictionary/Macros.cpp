@@ -95,9 +95,9 @@ DictionaryParser::Found DictionaryParser::lookup(const SourceLocation& where, st
     }
     const Dictionary* start = &scope;
     bool outwards = false;
-    const auto up = [&] {
+    const auto up = [&, written = name] {
         if (!start->parent_) {
-            fail(where, "'$" + name + "' goes above the top of the file");
+            fail(where, "'$" + written + "' goes above the top of the file");
         }
         start = start->parent_;
     };
