@@ -61,6 +61,7 @@ template <bool axisymmetric>
 struct Rectangle
 {
     static constexpr int corners = 4;
+    static constexpr bool isAxisymmetric = axisymmetric;
 
     struct Cell
     {
@@ -187,6 +188,7 @@ template <bool axisymmetric>
 struct Quadrilateral
 {
     static constexpr int corners = 4;
+    static constexpr bool isAxisymmetric = axisymmetric;
 
     struct Cell
     {
@@ -357,6 +359,7 @@ template <bool axisymmetric>
 struct Triangle
 {
     static constexpr int corners = 3;
+    static constexpr bool isAxisymmetric = axisymmetric;
 
     struct Cell
     {

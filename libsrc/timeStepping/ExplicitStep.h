@@ -16,11 +16,11 @@ namespace caisson {
 ///
 /// Every cell keeps its own sums per corner; the nodes gather them in a fixed order. So the result does not
 /// depend on who computed which cell.
-template <class Shape>
-class OnePhaseStep final : public TimeStep
+template <class Shape, int phases>
+class ExplicitStep final : public TimeStep
 {
 public:
-    OnePhaseStep(const Scene& scene, State& state, bool axisymmetric);
+    ExplicitStep(const Scene& scene, State& state);
 
     void advance(State& state, double dt) override;
     [[nodiscard]] StableStep stableStep(const State& state) const override;
@@ -31,6 +31,7 @@ public:
 
 private:
     static constexpr int corners = Shape::corners;
+    static constexpr bool axisymmetric = Shape::isAxisymmetric;
     using Values = shapes::Values<corners>;
     using Dilatation = shapes::MeanDilatation<corners>;
 
@@ -71,7 +72,6 @@ private:
     [[nodiscard]] double fastestWave(const State& state, int c) const;
 
     const Scene& scene_;
-    bool axisymmetric_;
     std::vector<int> cellNodes_; ///< corners in the order that Shape wants
     CompressedRows nodeCorners_; ///< around each node: cell * corners + corner
     std::vector<BodySurface> surfaces_;

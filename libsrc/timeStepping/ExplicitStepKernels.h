@@ -1,0 +1,1081 @@
+#pragma once
+
+#include "dictionary/Text.h"
+#include "timeStepping/ExplicitStep.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace caisson {
+
+namespace kernels {
+
+/// Shape functions are evaluated a hair inside, so that a point on the axis has a hoop strain.
+inline constexpr double smallestRadius = 1e-12;
+
+/// A cell away from any surface is integrated as filled from this share of its volume on. Rows of regularly
+/// spaced points cross a mesh line together: with two rows per cell the share of a full cell swings between a
+/// half and one and a half, so a threshold near one would switch whole rows of cells at every crossing.
+inline constexpr double leastFill = 0.25;
+inline constexpr double fillHysteresis = 0.1;
+
+/// A node with less than this share of the mass of evenly filled cells is loose.
+inline constexpr double looseShare = 0.6;
+
+/// Corner 0 of an axis-parallel rectangle is to be the lower left one.
+inline int firstCorner(const BackgroundMesh& mesh, int cell)
+{
+    int first = 0;
+    for (int k = 1; k < mesh.corners; ++k) {
+        const int a = mesh.node(cell, k);
+        const int b = mesh.node(cell, first);
+        if (mesh.r[a] + mesh.z[a] < mesh.r[b] + mesh.z[b]) {
+            first = k;
+        }
+    }
+    return first;
+}
+
+} // namespace kernels
+
+template <class Shape, int phases>
+ExplicitStep<Shape, phases>::ExplicitStep(const Scene& scene, State& state)
+    : scene_(scene), locator_(state.mesh)
+{
+    const BackgroundMesh& mesh = state.mesh;
+    const int cells = mesh.cells();
+    cellNodes_.resize(mesh.cellNodes.size());
+    for (int c = 0; c < cells; ++c) {
+        const int first = corners == 4 ? kernels::firstCorner(mesh, c) : 0;
+        for (int k = 0; k < corners; ++k) {
+            cellNodes_[c * corners + k] = mesh.node(c, (first + k) % corners);
+        }
+    }
+    nodeCorners_.start.assign(mesh.nodes() + 1, 0);
+    for (const int i : cellNodes_) {
+        ++nodeCorners_.start[i + 1];
+    }
+    for (int i = 0; i < mesh.nodes(); ++i) {
+        nodeCorners_.start[i + 1] += nodeCorners_.start[i];
+    }
+    nodeCorners_.item.resize(cellNodes_.size());
+    std::vector<int> cursor(nodeCorners_.start.begin(), nodeCorners_.start.end() - 1);
+    for (int k = 0; k < static_cast<int>(cellNodes_.size()); ++k) {
+        nodeCorners_.item[cursor[cellNodes_[k]]++] = k;
+    }
+
+    for (const Material& material : scene.materials) {
+        density_.push_back(material.inertialDensity());
+        gravityShare_.push_back(material.weighingDensity() / material.inertialDensity());
+        waveSpeed_.push_back(std::sqrt(material.law->pWaveModulus() / material.inertialDensity()));
+    }
+    inside_.assign(cells, 0);
+    // Surfaces are found where constant/polyMesh has the bodies: the same in a restarted run.
+    InputProblems problems;
+    BackgroundMesh reference = mesh;
+    reference.z = scene.referenceZ;
+    for (RigidBody body : state.bodies) {
+        body.tipLevel = body.initialTipLevel;
+        surfaces_.push_back(findBodySurface(body, reference, problems));
+        for (int c = 0; c < cells; ++c) {
+            inside_[c] |= surfaces_.back().voidCell[c];
+        }
+    }
+    problems.throwIfAny("the mesh and its bodies");
+    contactNode_.assign(mesh.nodes(), 0);
+    for (const BodySurface& surface : surfaces_) {
+        for (const SurfaceNode& node : surface.nodes) {
+            contactNode_[node.node] = 1;
+        }
+    }
+
+    cells_.resize(cells);
+    dilatation_.resize(cells);
+    inertiaScale_.assign(cells, scene.controls.massScaling);
+    fullness_.assign(cells, 1);
+    cornerSums_.resize(cells * corners);
+    nodes_.resize(mesh.nodes());
+    looseNode_.resize(mesh.nodes());
+    byLoose_.resize(cells);
+    traction_.resize(mesh.nodes());
+    cellRate_.assign(cells, 0);
+    nodeRate_.assign(mesh.nodes(), 0);
+    state.filled.resize(cells, 0);
+    state.cellDivergence.resize(cells, 0);
+    state.reactions.resize(state.bodies.size());
+    for (auto& component : strain_) {
+        component.resize(state.points.size());
+    }
+    spin_.resize(state.points.size());
+    statePointers_.resize(state.points.state.size());
+    updateCells(state);
+    rebuild(state);
+}
+
+template <class Shape, int phases>
+void ExplicitStep<Shape, phases>::rebuild(State& state)
+{
+    pointCells_.sort(state.points, state.mesh.cells());
+    occupancyChanged_ = true;
+    classifyCells(state);
+}
+
+template <class Shape, int phases>
+void ExplicitStep<Shape, phases>::updateCells(const State& state)
+{
+    double r[corners];
+    double z[corners];
+    for (int c = 0; c < static_cast<int>(cells_.size()); ++c) {
+        for (int k = 0; k < corners; ++k) {
+            r[k] = state.mesh.r[cellNodes_[c * corners + k]];
+            z[k] = state.mesh.z[cellNodes_[c * corners + k]];
+        }
+        cells_[c] = Shape::make(r, z);
+        dilatation_[c] = Shape::meanDilatation(cells_[c]);
+    }
+}
+
+template <class Shape, int phases>
+void ExplicitStep<Shape, phases>::classifyCells(State& state)
+{
+    const int cells = state.mesh.cells();
+    if (occupancyChanged_) {
+        occupancyChanged_ = false;
+        occupied_.assign(cells, 0);
+        activeCells_.clear();
+        for (int c = 0; c < cells; ++c) {
+            if (pointCells_.count(c) > 0) {
+                occupied_[c] = 1;
+                activeCells_.push_back(c);
+            }
+        }
+        surfaceNode_.assign(state.mesh.nodes(), 0);
+        for (int c = 0; c < cells; ++c) {
+            if (!occupied_[c] && !inside_[c]) {
+                for (int k = 0; k < corners; ++k) {
+                    surfaceNode_[cellNodes_[c * corners + k]] = 1;
+                }
+            }
+        }
+        bySurface_.assign(cells, 0);
+        std::vector<unsigned char> active(state.mesh.nodes(), 0);
+        for (const int c : activeCells_) {
+            for (int k = 0; k < corners; ++k) {
+                const int i = cellNodes_[c * corners + k];
+                bySurface_[c] |= surfaceNode_[i];
+                active[i] = 1;
+            }
+        }
+        activeNodes_.clear();
+        for (int i = 0; i < state.mesh.nodes(); ++i) {
+            if (active[i]) {
+                activeNodes_.push_back(i);
+            }
+        }
+        // Sums of cells that went empty must not linger.
+        for (int c = 0; c < cells; ++c) {
+            if (!occupied_[c]) {
+                state.filled[c] = 0;
+                std::fill_n(cornerSums_.begin() + c * corners, corners, Corner{});
+            }
+        }
+    }
+    const bool mixed = scene_.controls.integration == SolutionControls::Integration::mixed;
+    for (const int c : activeCells_) {
+        bool filled = mixed && !bySurface_[c];
+        if (filled) {
+            double volume = 0;
+            for (const int* p = pointCells_.begin(c); p != pointCells_.end(c); ++p) {
+                volume += state.points.volume[*p];
+            }
+            filled = volume >
+                     (state.filled[c] ? kernels::leastFill : kernels::leastFill + kernels::fillHysteresis) *
+                         dilatation_[c].volume;
+        }
+        state.filled[c] = filled;
+    }
+}
+
+template <class Shape, int phases>
+double ExplicitStep<Shape, phases>::fastestWave(const State& state, int c) const
+{
+    if (waveSpeed_.size() == 1) {
+        return waveSpeed_[0];
+    }
+    double speed = 0;
+    for (const int* p = pointCells_.begin(c); p != pointCells_.end(c); ++p) {
+        speed = std::max(speed, waveSpeed_[state.points.material[*p]]);
+    }
+    return speed;
+}
+
+template <class Shape, int phases>
+void ExplicitStep<Shape, phases>::scaleInertia(const State& state)
+{
+    if (scene_.controls.commonTimeStep <= 0) {
+        return;
+    }
+    for (const int c : activeCells_) {
+        const double speed = fastestWave(state, c);
+        const double own = Shape::size(cells_[c]) / speed * std::sqrt(scene_.controls.massScaling);
+        const double wanted = scene_.controls.commonTimeStep;
+        inertiaScale_[c] =
+            scene_.controls.massScaling * (own < wanted ? (wanted / own) * (wanted / own) : 1.0);
+    }
+}
+
+template <class Shape, int phases>
+StableStep ExplicitStep<Shape, phases>::stableStep(const State& state) const
+{
+    StableStep result{std::numeric_limits<double>::max(), -1, 0, 0};
+    // Linear bulk viscosity b shortens the step by sqrt(1 + b^2) - b.
+    const double b = scene_.controls.linearBulkViscosity;
+    const double viscous = std::sqrt(1 + b * b) - b;
+    for (const int c : activeCells_) {
+        const double speed = fastestWave(state, c);
+        const double size = Shape::size(cells_[c]);
+        double step = viscous * size / speed * std::sqrt(scene_.controls.massScaling);
+        if (scene_.controls.commonTimeStep > 0) {
+            step = std::max(step, scene_.controls.commonTimeStep);
+        }
+        if (step < result.step) {
+            result = {step, c, speed, size};
+        }
+    }
+    return result;
+}
+
+template <class Shape, int phases>
+CellCounts ExplicitStep<Shape, phases>::cellCounts(const State& state) const
+{
+    CellCounts counts;
+    for (std::size_t c = 0; c < cells_.size(); ++c) {
+        if (inside_[c]) {
+            ++counts.inside;
+        } else if (!occupied_[c]) {
+            ++counts.empty;
+        } else if (state.filled[c]) {
+            ++counts.filled;
+        } else {
+            ++counts.partial;
+        }
+    }
+    return counts;
+}
+
+template <class Shape, int phases>
+std::string ExplicitStep<Shape, phases>::description() const
+{
+    const SolutionControls& controls = scene_.controls;
+    std::string words = "one-phase, ";
+    words += axisymmetric ? "axisymmetric" : "plane strain";
+    words += corners == 3 ? ", triangles" : ", quadrilaterals";
+    words +=
+        controls.integration == SolutionControls::Integration::mixed ? ", mixed integration" : ", points";
+    words += controls.locking == SolutionControls::Locking::none             ? ""
+             : controls.locking == SolutionControls::Locking::meanDilatation ? ", mean dilatation"
+                                                                             : ", nodal dilatation";
+    return words;
+}
+
+// ---------------------------------------------------------------------------------------------------------
+
+template <class Shape, int phases>
+void ExplicitStep<Shape, phases>::advance(State& state, double dt)
+{
+    scaleInertia(state);
+    if (state.step == 0) {
+        staggerStrain(state, dt);
+    }
+    for (std::size_t b = 0; b < state.bodies.size(); ++b) {
+        state.bodies[b].velocity = state.bodies[b].prescribedVelocity(state.time + dt);
+        state.reactions[b].duration += dt;
+    }
+    mapToNodes(state);
+    solveNodes(state, dt);
+    mapToPoints(state, dt);
+    updateStress(state);
+    moveBodiesAndMesh(state, dt);
+    relocate(state);
+    state.time += dt;
+    state.timeStep = dt;
+    ++state.step;
+}
+
+/// Stresses are half a step ahead of the velocities that they accelerate (leap-frog). At the start both are
+/// given at the same time: soil that moves then is strained by half a step first, without which the phase of
+/// every vibration is off by half a step and the whole scheme first order in time.
+template <class Shape, int phases>
+void ExplicitStep<Shape, phases>::staggerStrain(State& state, double dt)
+{
+    mapToNodes(state);
+    solveNodes(state, 0);
+    bool moving = false;
+    for (const int i : activeNodes_) {
+        moving = moving || nodes_[i].vr != 0 || nodes_[i].vz != 0;
+        nodes_[i].placeVr = nodes_[i].placeVz = 0; // places stay
+    }
+    for (BodyReaction& reaction : state.reactions) {
+        reaction.work = 0;
+        reaction.restartCollection();
+    }
+    if (!moving) {
+        return;
+    }
+    if (scene_.controls.locking == SolutionControls::Locking::nodalAverage) {
+        averageDilatationAtNodes();
+    }
+    for (const int c : activeCells_) {
+        mapCellToPoints<false, true>(state, 0.5 * dt, c);
+    }
+    updateStress(state);
+}
+
+template <class Shape, int phases>
+void ExplicitStep<Shape, phases>::mapCellToNodes(State& state, int c)
+{
+    const MaterialPoints& points = state.points;
+    const typename Shape::Cell& cell = cells_[c];
+    const bool meanDilatation = scene_.controls.locking == SolutionControls::Locking::meanDilatation;
+    const int* const first = pointCells_.begin(c);
+    const int* const last = pointCells_.end(c);
+
+    double viscousStress = 0;
+    if (scene_.controls.linearBulkViscosity > 0 || scene_.controls.quadraticBulkViscosity > 0) {
+        // von Neumann & Richtmyer 1950, with Landshoff's linear term; the quadratic one in compression only.
+        const int material = points.material[*first];
+        const double rate = state.cellDivergence[c];
+        const double size = Shape::size(cell);
+        viscousStress =
+            density_[material] * size * scene_.controls.linearBulkViscosity * waveSpeed_[material] * rate;
+        if (rate < 0) {
+            const double quadratic = scene_.controls.quadraticBulkViscosity * size * rate;
+            viscousStress -= density_[material] * quadratic * quadratic;
+        }
+    }
+
+    const shapes::Moments<corners> moments = Shape::moments(cell);
+    double mass[corners] = {};
+    double momentumR[corners] = {};
+    double momentumZ[corners] = {};
+    double forceR[corners] = {};
+    double forceZ[corners] = {};
+    Values values;
+    const auto addInertiaAndWeight = [&](int p) {
+        const double m = points.mass[p];
+        const double mr = m * points.vr[p];
+        const double mz = m * points.vz[p];
+        const double weight = m * gravityShare_[points.material[p]];
+        const double wr = weight * scene_.gravity[0];
+        const double wz = weight * scene_.gravity[1];
+        for (int k = 0; k < corners; ++k) {
+            mass[k] += values.N[k] * m;
+            momentumR[k] += values.N[k] * mr;
+            momentumZ[k] += values.N[k] * mz;
+            forceR[k] += values.N[k] * wr;
+            forceZ[k] += values.N[k] * wz;
+        }
+    };
+
+    if (state.filled[c]) {
+        // The points' stresses as mean and slopes over the cell, weighted with volume.
+        double w = 0, wx = 0, wy = 0, wxx = 0, wyy = 0, wxy = 0;
+        double s[4] = {}, sx[4] = {}, sy[4] = {};
+        for (const int* i = first; i != last; ++i) {
+            const int p = *i;
+            Shape::evaluate(cell, points.r[p], points.z[p], values);
+            addInertiaAndWeight(p);
+            const double v = points.volume[p];
+            w += v;
+            if constexpr (corners == 4) {
+                const auto [x, y] = Shape::local(cell, points.r[p], points.z[p]);
+                wx += v * x;
+                wy += v * y;
+                wxx += v * x * x;
+                wyy += v * y * y;
+                wxy += v * x * y;
+                for (int j = 0; j < 4; ++j) {
+                    const double vs = v * points.stress[j][p];
+                    s[j] += vs;
+                    sx[j] += vs * x;
+                    sy[j] += vs * y;
+                }
+            } else {
+                for (int j = 0; j < 4; ++j) {
+                    s[j] += v * points.stress[j][p];
+                }
+            }
+        }
+        const double inverse = 1 / w;
+        fullness_[c] = moments.volume * inverse;
+        for (int k = 0; k < corners; ++k) {
+            forceR[k] *= fullness_[c];
+            forceZ[k] *= fullness_[c];
+        }
+        double stress[4]; // mean
+        for (int j = 0; j < 4; ++j) {
+            stress[j] = s[j] * inverse + (j < 3 ? viscousStress : 0);
+        }
+        const auto addForces = [&](int moment, const double(&sigma)[4]) {
+            for (int k = 0; k < corners; ++k) {
+                forceR[k] -=
+                    moments.volume * (sigma[0] * moments.gr[moment][k] + sigma[3] * moments.gz[moment][k] +
+                                      sigma[2] * moments.h[moment][k]);
+                forceZ[k] -=
+                    moments.volume * (sigma[1] * moments.gz[moment][k] + sigma[3] * moments.gr[moment][k]);
+            }
+        };
+        if constexpr (corners == 4) {
+            // What varies over a cell at rest is known from its weight, wherever the points are: only the
+            // rest is taken from them.
+            const int material = points.material[*first];
+            const auto [riseXi, riseEta] = Shape::heightSlopes(cell);
+            const double fullWeight = -scene_.gravity[1] * gravityShare_[material] * density_[material];
+            const double halfRise = std::max(std::abs(riseXi), std::abs(riseEta));
+            // Soil that carries less than half a cell of itself is not at rest.
+            const double weight = std::clamp(-stress[1] / halfRise, 0.0, std::max(fullWeight, 0.0));
+            const double ratio = stress[1] < 0 ? std::clamp(stress[0] / stress[1], 0.0, 1.0) : 0.0;
+            const double known[4] = {ratio * weight, weight, ratio * weight, 0};
+            const double x = wx * inverse;
+            const double y = wy * inverse;
+            // The ridge keeps slopes from being extrapolated out of a cluster of points.
+            constexpr double ridge = 0.02;
+            const double xx = wxx * inverse - x * x;
+            const double yy = wyy * inverse - y * y;
+            const double xy = wxy * inverse - x * y;
+            const double determinant = (xx + ridge) * (yy + ridge) - xy * xy;
+            double slopeXi[4];
+            double slopeEta[4];
+            for (int j = 0; j < 4; ++j) {
+                const double knownXi = known[j] * riseXi;
+                const double knownEta = known[j] * riseEta;
+                const double mean = s[j] * inverse;
+                const double cx = sx[j] * inverse - x * mean - knownXi * xx - knownEta * xy;
+                const double cy = sy[j] * inverse - y * mean - knownXi * xy - knownEta * yy;
+                slopeXi[j] = (cx * (yy + ridge) - cy * xy) / determinant + knownXi;
+                slopeEta[j] = (cy * (xx + ridge) - cx * xy) / determinant + knownEta;
+                stress[j] -= knownXi * x + knownEta * y;
+            }
+            if (meanDilatation) { // the mean stress works on the mean dilatation alone
+                const double dx = (slopeXi[0] + slopeXi[1] + slopeXi[2]) / 3;
+                const double dy = (slopeEta[0] + slopeEta[1] + slopeEta[2]) / 3;
+                for (int j = 0; j < 3; ++j) {
+                    slopeXi[j] -= dx;
+                    slopeEta[j] -= dy;
+                }
+            }
+            addForces(1, slopeXi);
+            addForces(2, slopeEta);
+        }
+        addForces(0, stress);
+    } else {
+        fullness_[c] = 1;
+        double br[corners] = {};
+        double bz[corners] = {};
+        double volume = 0;
+        double pressureVolume = 0;
+        for (const int* i = first; i != last; ++i) {
+            const int p = *i;
+            Shape::evaluate(cell, points.r[p], points.z[p], values);
+            addInertiaAndWeight(p);
+            const double v = points.volume[p];
+            double stress[4];
+            for (int j = 0; j < 4; ++j) {
+                stress[j] = points.stress[j][p] + (j < 3 ? viscousStress : 0);
+            }
+            const double inverseR = axisymmetric ? 1 / std::max(points.r[p], kernels::smallestRadius) : 0;
+            if (meanDilatation) {
+                const double mean = (stress[0] + stress[1] + stress[2]) / 3;
+                stress[0] -= mean;
+                stress[1] -= mean;
+                stress[2] -= mean;
+                pressureVolume += v * mean;
+                volume += v;
+                for (int k = 0; k < corners; ++k) {
+                    br[k] += v * (values.dr[k] + values.N[k] * inverseR);
+                    bz[k] += v * values.dz[k];
+                }
+            }
+            for (int k = 0; k < corners; ++k) {
+                forceR[k] -= v * (stress[0] * values.dr[k] + stress[3] * values.dz[k] +
+                                  stress[2] * values.N[k] * inverseR);
+                forceZ[k] -= v * (stress[1] * values.dz[k] + stress[3] * values.dr[k]);
+            }
+        }
+        if (meanDilatation) {
+            const double meanStress = pressureVolume / volume;
+            for (int k = 0; k < corners; ++k) {
+                forceR[k] -= meanStress * br[k];
+                forceZ[k] -= meanStress * bz[k];
+            }
+        }
+    }
+
+    const double inertia = inertiaScale_[c] * fullness_[c];
+    const double fullMass = inertiaScale_[c] * density_[points.material[*first]] * moments.volume;
+    Corner* const out = &cornerSums_[c * corners];
+    for (int k = 0; k < corners; ++k) {
+        out[k] = {inertia * mass[k], inertia * momentumR[k], inertia * momentumZ[k], forceR[k],
+                  forceZ[k],         fullMass * moments.n[k]};
+    }
+}
+
+template <class Shape, int phases>
+void ExplicitStep<Shape, phases>::mapToNodes(State& state)
+{
+    for (const int c : activeCells_) {
+        mapCellToNodes(state, c);
+    }
+    if (scene_.conditions.hasTractions()) {
+        std::ranges::fill(traction_, std::array<double, 2>{});
+        scene_.conditions.addTractions(state.mesh, state.time, traction_);
+    }
+}
+
+template <class Shape, int phases>
+void ExplicitStep<Shape, phases>::solveNodes(State& state, double dt)
+{
+    const double damping = scene_.controls.localDamping;
+    const bool tractions = scene_.conditions.hasTractions();
+    for (const int i : activeNodes_) {
+        Corner sum{};
+        for (int k = nodeCorners_.start[i]; k < nodeCorners_.start[i + 1]; ++k) {
+            const Corner& corner = cornerSums_[nodeCorners_.item[k]];
+            sum.mass += corner.mass;
+            sum.momentumR += corner.momentumR;
+            sum.momentumZ += corner.momentumZ;
+            sum.forceR += corner.forceR;
+            sum.forceZ += corner.forceZ;
+            sum.fullMass += corner.fullMass;
+        }
+        Node& node = nodes_[i];
+        node.mass = sum.mass;
+        looseNode_[i] = surfaceNode_[i] != 0 || sum.mass < kernels::looseShare * sum.fullMass;
+        if (sum.mass <= 0) {
+            node = Node{};
+            continue;
+        }
+        if (tractions) {
+            sum.forceR += traction_[i][0];
+            sum.forceZ += traction_[i][1];
+        }
+        const double inverse = 1 / sum.mass;
+        const double oldR = sum.momentumR * inverse;
+        const double oldZ = sum.momentumZ * inverse;
+        if (damping > 0 &&
+            !contactNode_[i]) { // Cundall 1987: opposes the motion with a share of the out-of-balance force
+            sum.forceR -= std::copysign(damping * std::abs(sum.forceR), oldR);
+            sum.forceZ -= std::copysign(damping * std::abs(sum.forceZ), oldZ);
+        }
+        node.dvr = dt * sum.forceR * inverse;
+        node.dvz = dt * sum.forceZ * inverse;
+        node.vr = oldR + node.dvr;
+        node.vz = oldZ + node.dvz;
+        node.placeVr = oldR + 0.5 * node.dvr;
+        node.placeVz = oldZ + 0.5 * node.dvz;
+    }
+    applyConditions(state.time + dt, false);
+    applyContact(state, dt, false);
+}
+
+template <class Shape, int phases>
+void ExplicitStep<Shape, phases>::applyConditions(double time, bool remapped)
+{
+    for (const VelocityConditions::Node& condition : scene_.conditions.nodes()) {
+        Node& node = nodes_[condition.node];
+        if (node.mass <= 0) {
+            continue;
+        }
+        double changeR;
+        double changeZ;
+        if (condition.fixed) {
+            std::array<double, 3> value{};
+            if (condition.value) {
+                value = condition.value->value(time);
+            }
+            changeR = value[0] - node.vr;
+            changeZ = value[2] - node.vz;
+        } else {
+            const auto& n = condition.normal;
+            const double along = node.vr * n[0] + node.vz * n[1];
+            changeR = -along * n[0];
+            changeZ = -along * n[1];
+        }
+        node.vr += changeR;
+        node.vz += changeZ;
+        if (!remapped) {
+            node.dvr += changeR;
+            node.dvz += changeZ;
+            if (condition.fixed) {
+                node.placeVr = node.vr;
+                node.placeVz = node.vz;
+            } else { // what is held moves with the new velocity, which is zero along the normal
+                const auto& n = condition.normal;
+                const double along = node.placeVr * n[0] + node.placeVz * n[1];
+                node.placeVr -= along * n[0];
+                node.placeVz -= along * n[1];
+            }
+        }
+    }
+}
+
+template <class Shape, int phases>
+void ExplicitStep<Shape, phases>::applyContact(State& state, double dt, bool remapped)
+{
+    for (std::size_t b = 0; b < state.bodies.size(); ++b) {
+        const RigidBody& body = state.bodies[b];
+        BodyReaction& reaction = state.reactions[b];
+        if (body.adhesion > 0) {
+            updateAreas(surfaces_[b], state.mesh);
+        }
+        for (const SurfaceNode& contact : surfaces_[b].nodes) {
+            Node& node = nodes_[contact.node];
+            if (node.mass <= 0) {
+                continue;
+            }
+            const auto touch = [&](const std::array<double, 2>& n, SurfacePart part, double bodyVz,
+                                   double area) {
+                const double slipR = node.vr;
+                const double slipZ = node.vz - bodyVz;
+                const double approach = slipR * n[0] + slipZ * n[1];
+                if (approach >= 0) {
+                    return;
+                }
+                // Normal part to zero; friction takes from the slip what mu times the normal impulse can.
+                const double slipTr = slipR - approach * n[0];
+                const double slipTz = slipZ - approach * n[1];
+                const double slip = std::hypot(slipTr, slipTz);
+                const double limit = body.friction * -approach + body.adhesion * area * dt / node.mass;
+                const double share = slip > limit ? limit / slip : 1.0;
+                const double changeR = -approach * n[0] - share * slipTr;
+                const double changeZ = -approach * n[1] - share * slipTz;
+                node.vr += changeR;
+                node.vz += changeZ;
+                if (remapped) {
+                    return;
+                }
+                node.dvr += changeR;
+                node.dvz += changeZ;
+                // Along the normal the points move with the body; the other direction keeps the mean.
+                const double place = (node.placeVr - node.vr) * n[0] + (node.placeVz - node.vz) * n[1];
+                node.placeVr += 0.5 * (changeR + approach * n[0]) - place * n[0];
+                node.placeVz += 0.5 * (changeZ + approach * n[1]) - place * n[1];
+                reaction.radialImpulse[static_cast<int>(part)] -= node.mass * changeR;
+                reaction.verticalImpulse[static_cast<int>(part)] -= node.mass * changeZ;
+                reaction.work += node.mass * changeZ * body.velocity;
+            };
+            const bool tipCorner = contact.faces == 2 && contact.part[0] == SurfacePart::tip;
+            if (!tipCorner || body.tipCorner == TipCorner::full) {
+                for (int f = 0; f < contact.faces; ++f) {
+                    touch(contact.normal[f], contact.part[f], body.velocity, contact.area[f]);
+                }
+            } else if (body.tipCorner == TipCorner::rounded) {
+                touch(contact.roundedNormal, contact.part[0], body.velocity, contact.area[0]);
+            } else {
+                const double w = contact.tipShare;
+                const double besideVz = contact.beside >= 0 && nodes_[contact.beside].mass > 0
+                                            ? nodes_[contact.beside].vz
+                                            : body.velocity;
+                touch(contact.normal[0], contact.part[0], w * body.velocity + (1 - w) * besideVz,
+                      contact.area[0]);
+            }
+        }
+    }
+}
+
+// ---------------------------------------------------------------------------------------------------------
+
+template <class Shape, int phases>
+template <bool velocities, bool strains>
+void ExplicitStep<Shape, phases>::mapCellToPoints(State& state, double dt, int c)
+{
+    MaterialPoints& points = state.points;
+    const typename Shape::Cell& cell = cells_[c];
+    const bool meanDilatation = scene_.controls.locking == SolutionControls::Locking::meanDilatation;
+    const bool nodalAverage = scene_.controls.locking == SolutionControls::Locking::nodalAverage;
+    const int* const first = pointCells_.begin(c);
+    const int* const last = pointCells_.end(c);
+    const double flip = std::max(0.0, scene_.controls.flipShare -
+                                          (scene_.controls.picTime > 0 ? dt / scene_.controls.picTime : 0.0));
+
+    double vr[corners], vz[corners], dvr[corners], dvz[corners], pr[corners], pz[corners];
+    for (int k = 0; k < corners; ++k) {
+        const Node& node = nodes_[cellNodes_[c * corners + k]];
+        vr[k] = node.vr;
+        vz[k] = node.vz;
+        dvr[k] = node.dvr;
+        dvz[k] = node.dvz;
+        pr[k] = node.placeVr;
+        pz[k] = node.placeVz;
+    }
+
+    double rate = 0; // dilatation rate shared by the points of the cell
+    // Filled cells: mean and slopes of the velocity gradient (rr, zz, hoop, v_r,z, v_z,r) about the points'
+    // centre.
+    double gradient[3][5] = {};
+    double centreXi = 0;
+    double centreEta = 0;
+    const bool filled = state.filled[c] != 0;
+    if constexpr (strains) {
+        if (nodalAverage) {
+            rate = cellRate_[c];
+        }
+        if (filled) {
+            const shapes::Moments<corners> m = Shape::moments(cell);
+            for (int moment = 0; moment < shapes::Moments<corners>::count; ++moment) {
+                double* const g = gradient[moment];
+                for (int k = 0; k < corners; ++k) {
+                    g[0] += m.gr[moment][k] * vr[k];
+                    g[1] += m.gz[moment][k] * vz[k];
+                    g[2] += m.h[moment][k] * vr[k];
+                    g[3] += m.gz[moment][k] * vr[k];
+                    g[4] += m.gr[moment][k] * vz[k];
+                }
+            }
+            if (!nodalAverage) {
+                rate = gradient[0][0] + gradient[0][1] + gradient[0][2];
+            }
+            if constexpr (corners == 4) {
+                for (int j = 0; j < 5; ++j) {
+                    gradient[1][j] /= m.inertiaXi;
+                    gradient[2][j] /= m.inertiaEta;
+                }
+                double w = 0;
+                for (const int* i = first; i != last; ++i) {
+                    const double v = points.volume[*i];
+                    const auto [x, y] = Shape::local(cell, points.r[*i], points.z[*i]);
+                    w += v;
+                    centreXi += v * x;
+                    centreEta += v * y;
+                }
+                centreXi /= w;
+                centreEta /= w;
+            }
+        } else if (meanDilatation) { // the same mean over the points as in the forces
+            double volume = 0;
+            Values values;
+            for (const int* i = first; i != last; ++i) {
+                const int p = *i;
+                Shape::evaluate(cell, points.r[p], points.z[p], values);
+                const double inverseR = axisymmetric ? 1 / std::max(points.r[p], kernels::smallestRadius) : 0;
+                double own = 0;
+                for (int k = 0; k < corners; ++k) {
+                    own += (values.dr[k] + values.N[k] * inverseR) * vr[k] + values.dz[k] * vz[k];
+                }
+                rate += points.volume[p] * own;
+                volume += points.volume[p];
+            }
+            rate /= volume;
+        }
+    }
+    const bool sharedRate = meanDilatation || nodalAverage;
+
+    double rateSum = 0;
+    Values values;
+    for (const int* i = first; i != last; ++i) {
+        const int p = *i;
+        const double r = points.r[p];
+        Shape::evaluate(cell, r, points.z[p], values);
+        if constexpr (strains) {
+            double rr = 0, zz = 0, rz = 0, zr = 0, hoop = 0;
+            if (filled) {
+                double x = 0;
+                double y = 0;
+                if constexpr (corners == 4) {
+                    const auto [xi, eta] = Shape::local(cell, r, points.z[p]);
+                    x = xi - centreXi;
+                    y = eta - centreEta;
+                }
+                const auto at = [&](int j) {
+                    return gradient[0][j] + x * gradient[1][j] + y * gradient[2][j];
+                };
+                rr = at(0);
+                zz = at(1);
+                hoop = at(2);
+                rz = at(3);
+                zr = at(4);
+            } else {
+                for (int k = 0; k < corners; ++k) {
+                    rr += values.dr[k] * vr[k];
+                    rz += values.dz[k] * vr[k];
+                    zr += values.dr[k] * vz[k];
+                    zz += values.dz[k] * vz[k];
+                    hoop += values.N[k] * vr[k];
+                }
+                hoop = axisymmetric ? hoop / std::max(r, kernels::smallestRadius) : 0.0;
+            }
+            const double own = rr + zz + hoop;
+            const double trace = sharedRate ? rate : own;
+            const double shift = (trace - own) / 3;
+            rateSum += trace;
+            strain_[0][p] = dt * (rr + shift);
+            strain_[1][p] = dt * (zz + shift);
+            strain_[2][p] = dt * (hoop + shift);
+            strain_[3][p] = dt * (rz + zr);
+            spin_[p] = 0.5 * dt * (zr - rz);
+            const double e = dt * trace;
+            points.volume[p] *= 1 + e * (1 + 0.5 * e); // exp(e): the integral of the rate
+        }
+        if constexpr (velocities) {
+            double changeR = 0, changeZ = 0, placeR = 0, placeZ = 0, newR = 0, newZ = 0;
+            for (int k = 0; k < corners; ++k) {
+                changeR += values.N[k] * dvr[k];
+                changeZ += values.N[k] * dvz[k];
+                placeR += values.N[k] * pr[k];
+                placeZ += values.N[k] * pz[k];
+            }
+            if (flip < 1) {
+                for (int k = 0; k < corners; ++k) {
+                    newR += values.N[k] * vr[k];
+                    newZ += values.N[k] * vz[k];
+                }
+            }
+            points.vr[p] = flip * (points.vr[p] + changeR) + (1 - flip) * newR;
+            points.vz[p] = flip * (points.vz[p] + changeZ) + (1 - flip) * newZ;
+            if constexpr (strains) {
+                points.r[p] = r + dt * placeR;
+                points.z[p] += dt * placeZ;
+            }
+        } else {
+            double placeR = 0, placeZ = 0;
+            for (int k = 0; k < corners; ++k) {
+                placeR += values.N[k] * pr[k];
+                placeZ += values.N[k] * pz[k];
+            }
+            points.r[p] = r + dt * placeR;
+            points.z[p] += dt * placeZ;
+        }
+    }
+    if constexpr (strains) {
+        state.cellDivergence[c] = rateSum / static_cast<double>(last - first);
+    }
+}
+
+template <class Shape, int phases>
+void ExplicitStep<Shape, phases>::addRemappedMomentum(const State& state, int c)
+{
+    const MaterialPoints& points = state.points;
+    Corner* const out = &cornerSums_[c * corners];
+    for (int k = 0; k < corners; ++k) {
+        out[k].momentumR = out[k].momentumZ = 0;
+    }
+    Values values;
+    for (const int* i = pointCells_.begin(c); i != pointCells_.end(c); ++i) {
+        const int p = *i;
+        Shape::evaluate(cells_[c], points.r[p], points.z[p], values);
+        const double m = inertiaScale_[c] * fullness_[c] * points.mass[p];
+        for (int k = 0; k < corners; ++k) {
+            out[k].momentumR += values.N[k] * m * points.vr[p];
+            out[k].momentumZ += values.N[k] * m * points.vz[p];
+        }
+    }
+}
+
+template <class Shape, int phases>
+void ExplicitStep<Shape, phases>::averageDilatationAtNodes()
+{
+    // Detournay & Dzik 2006: cell rates to nodes by volume, and back as the mean of a cell's nodes.
+    for (const int c : activeCells_) {
+        double rate = 0;
+        for (int k = 0; k < corners; ++k) {
+            const Node& node = nodes_[cellNodes_[c * corners + k]];
+            rate += dilatation_[c].br[k] * node.vr + dilatation_[c].bz[k] * node.vz;
+        }
+        cellRate_[c] = rate;
+    }
+    for (const int i : activeNodes_) {
+        double sum = 0;
+        double volume = 0;
+        for (int k = nodeCorners_.start[i]; k < nodeCorners_.start[i + 1]; ++k) {
+            const int c = nodeCorners_.item[k] / corners;
+            if (occupied_[c]) {
+                sum += cellRate_[c] * dilatation_[c].volume;
+                volume += dilatation_[c].volume;
+            }
+        }
+        nodeRate_[i] = sum / volume;
+    }
+    for (const int c : activeCells_) {
+        double rate = 0;
+        for (int k = 0; k < corners; ++k) {
+            rate += nodeRate_[cellNodes_[c * corners + k]];
+        }
+        cellRate_[c] = rate / corners;
+    }
+}
+
+template <class Shape, int phases>
+void ExplicitStep<Shape, phases>::mapToPoints(State& state, double dt)
+{
+    const SolutionControls& controls = scene_.controls;
+    const bool remapAll = controls.remap == SolutionControls::Remap::all;
+    const bool remapSome = controls.remap == SolutionControls::Remap::loose;
+    const bool nodalAverage = controls.locking == SolutionControls::Locking::nodalAverage;
+    const auto later = [&](int c) { return remapAll || nodalAverage || (remapSome && byLoose_[c]); };
+    const auto remaps = [&](int c) { return remapAll || (remapSome && byLoose_[c]); };
+
+    if (remapSome) {
+        for (const int c : activeCells_) {
+            byLoose_[c] = 0;
+            for (int k = 0; k < corners; ++k) {
+                byLoose_[c] |= looseNode_[cellNodes_[c * corners + k]];
+            }
+        }
+    }
+    for (const int c : activeCells_) {
+        if (later(c)) {
+            mapCellToPoints<true, false>(state, dt, c);
+        }
+    }
+    if (remapAll || remapSome) {
+        for (const int c : activeCells_) {
+            if (remaps(c)) {
+                addRemappedMomentum(state, c);
+            }
+        }
+        for (const int i : activeNodes_) {
+            if (!(remapAll || looseNode_[i]) || nodes_[i].mass <= 0) {
+                continue;
+            }
+            double r = 0;
+            double z = 0;
+            for (int k = nodeCorners_.start[i]; k < nodeCorners_.start[i + 1]; ++k) {
+                r += cornerSums_[nodeCorners_.item[k]].momentumR;
+                z += cornerSums_[nodeCorners_.item[k]].momentumZ;
+            }
+            nodes_[i].vr = r / nodes_[i].mass;
+            nodes_[i].vz = z / nodes_[i].mass;
+        }
+        applyConditions(state.time + dt, true);
+        applyContact(state, dt, true);
+    }
+    if (nodalAverage) {
+        averageDilatationAtNodes();
+    }
+    for (const int c : activeCells_) {
+        if (later(c)) {
+            mapCellToPoints<false, true>(state, dt, c);
+        } else {
+            mapCellToPoints<true, true>(state, dt, c);
+        }
+    }
+}
+
+template <class Shape, int phases>
+void ExplicitStep<Shape, phases>::updateStress(State& state)
+{
+    MaterialPoints& points = state.points;
+    for (const PointCells::Run& run : pointCells_.runs()) {
+        StressBatch batch;
+        batch.size = run.end - run.begin;
+        for (int j = 0; j < 4; ++j) {
+            batch.strain[j] = strain_[j].data() + run.begin;
+            batch.stress[j] = points.stress[j].data() + run.begin;
+        }
+        batch.spin = spin_.data() + run.begin;
+        for (std::size_t k = 0; k < points.state.size(); ++k) {
+            statePointers_[k] = points.state[k].data() + run.begin;
+        }
+        batch.state = &statePointers_;
+        scene_.materials[run.material].law->update(batch);
+    }
+}
+
+template <class Shape, int phases>
+void ExplicitStep<Shape, phases>::moveBodiesAndMesh(State& state, double dt)
+{
+    for (RigidBody& body : state.bodies) {
+        body.tipLevel += dt * body.velocity;
+    }
+    if (scene_.movingBody >= 0 && state.bodies[scene_.movingBody].velocity != 0) {
+        const RigidBody& body = state.bodies[scene_.movingBody];
+        scene_.motion.place(state.mesh, scene_.referenceZ, body.tipLevel - body.initialTipLevel);
+        updateCells(state);
+    }
+}
+
+template <class Shape, int phases>
+void ExplicitStep<Shape, phases>::relocate(State& state)
+{
+    MaterialPoints& points = state.points;
+    bool moved = false;
+    for (const int c : activeCells_) {
+        const typename Shape::Cell& cell = cells_[c];
+        for (const int* i = pointCells_.begin(c); i != pointCells_.end(c); ++i) {
+            const int p = *i;
+            if (Shape::contains(cell, points.r[p], points.z[p])) {
+                continue;
+            }
+            int found = locator_.walk(points.r[p], points.z[p], c);
+            if (found >= 0 && inside_[found]) {
+                for (const RigidBody& body : state.bodies) {
+                    if (body.contains(points.r[p], points.z[p])) {
+                        const double clearance = 1e-6 * Shape::size(cell);
+                        const auto [r, z] = pushOut(body, points.r[p], points.z[p], clearance);
+                        points.r[p] = r;
+                        points.z[p] = z;
+                        found = locator_.walk(r, z, c);
+                    }
+                }
+                if (found >= 0 && inside_[found]) {
+                    continue; // rounding at a face: stays with its cell
+                }
+            }
+            if (found < 0) {
+                throw InputError(
+                    "the run",
+                    {InputProblem{
+                        {},
+                        text("material point %d left the mesh at r = %.6g m, z = %.6g m (t = %.6g s)",
+                             points.id[p], points.r[p], points.z[p], state.time),
+                        "extend the mesh there, or hold the soil with a boundary condition"}});
+            }
+            if (found != c) {
+                points.cell[p] = found;
+                moved = true;
+            }
+        }
+    }
+    const int cells = state.mesh.cells();
+    if (scene_.controls.sortInterval > 0 && (state.step + 1) % scene_.controls.sortInterval == 0) {
+        pointCells_.sort(points, cells);
+        moved = true;
+    } else if (moved) {
+        pointCells_.index(points, cells);
+    }
+    if (moved) {
+        for (int c = 0; c < cells && !occupancyChanged_; ++c) {
+            occupancyChanged_ = (pointCells_.count(c) > 0) != (occupied_[c] != 0);
+        }
+    }
+    classifyCells(state);
+}
+
+template <class Shape, int phases>
+std::vector<std::array<double, 2>> ExplicitStep<Shape, phases>::nodalVelocities(const State& state) const
+{
+    const MaterialPoints& points = state.points;
+    std::vector<std::array<double, 2>> momentum(state.mesh.nodes());
+    std::vector<double> mass(state.mesh.nodes(), 0);
+    Values values;
+    for (std::size_t p = 0; p < points.size(); ++p) {
+        const int c = points.cell[p];
+        Shape::evaluate(cells_[c], points.r[p], points.z[p], values);
+        for (int k = 0; k < corners; ++k) {
+            const int i = cellNodes_[c * corners + k];
+            const double m = values.N[k] * points.mass[p];
+            mass[i] += m;
+            momentum[i][0] += m * points.vr[p];
+            momentum[i][1] += m * points.vz[p];
+        }
+    }
+    for (std::size_t i = 0; i < mass.size(); ++i) {
+        if (mass[i] > 0) {
+            momentum[i][0] /= mass[i];
+            momentum[i][1] /= mass[i];
+        }
+    }
+    return momentum;
+}
+
+} // namespace caisson
