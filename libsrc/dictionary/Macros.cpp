@@ -28,6 +28,25 @@ void appendPunctuation(std::vector<Token>& tokens, char c)
     tokens.push_back(std::move(token));
 }
 
+/// Whether these tokens may stand in a value: brackets in pairs, no ';' outside braces.
+bool isWholeValue(const std::vector<Token>& tokens)
+{
+    std::string open;
+    for (const Token& token : tokens) {
+        if (is(token, '(') || is(token, '{') || is(token, '[')) {
+            open += token.text;
+        } else if (is(token, ')') || is(token, '}') || is(token, ']')) {
+            if (open.empty() || open.back() != (is(token, ')') ? '(' : is(token, '}') ? '{' : '[')) {
+                return false;
+            }
+            open.pop_back();
+        } else if (is(token, ';') && !open.ends_with('{')) {
+            return false;
+        }
+    }
+    return open.empty();
+}
+
 /// The entries of a dictionary as the tokens that they were read from.
 void appendEntries(std::vector<Token>& tokens, const Dictionary& dictionary)
 {
@@ -190,6 +209,10 @@ std::vector<Token> DictionaryParser::expand(const SourceLocation& where, std::st
         Token token;
         while (lexer.next(token)) {
             tokens.push_back(std::move(token));
+        }
+        if (!isWholeValue(tokens)) {
+            fail(where, "'" + text->substr(0, 60) + "', which '$" + name + "' stands for, is no value",
+                 "a ';' or a bracket without its other half is in it");
         }
     } else {
         std::vector<std::string> known;
