@@ -71,6 +71,12 @@ TEST(HostileInput, costlyPatternsAreRefused)
     EXPECT_EQ(refusedSoon("\"(a*)*\\1\" 1;"),
               "file:1: \"(a*)*\\1\" is no regular expression: back-references are not part of extended "
               "expressions");
+    // The C library doubles what stands before each '+'.
+    EXPECT_EQ(refusedSoon("\"a" + times(40, "+") + "\" 1;"),
+              "file:1: \"a" + times(40, "+") + "\" is no regular expression: repeats too often");
+    EXPECT_NE(refusedSoon("\"" + times(20, "(") + "a" + times(20, ")+") + "\" 1;").find("repeats too often"),
+              std::string::npos);
+    EXPECT_EQ(refusal("\"" + times(50, "a+b") + "([(+]+|[^])+]+|[[:alpha:]+])\" 1;"), "accepted");
 }
 
 TEST(HostileInput, manyKeysAreReadInLinearTime)
