@@ -50,14 +50,9 @@ const Entry* Dictionary::findScoped(std::string_view path) const { return findSc
 const Entry* Dictionary::findScoped(std::string_view path, bool patterns) const
 {
     constexpr auto mostDots = 16; // the ways to split a path double with each dot
-    if (const Entry* whole = patterns ? find(path) : findExact(path)) {
-        return whole;
-    }
-    if (std::ranges::count(path, '.') > mostDots) {
-        return nullptr;
-    }
-    for (std::size_t dot = path.rfind('.'); dot != std::string_view::npos && dot > 0;
-         dot = path.rfind('.', dot - 1)) {
+    const bool dotted = std::ranges::count(path, '.') <= mostDots;
+    for (std::size_t dot = path.find('.', 1); dotted && dot != std::string_view::npos;
+         dot = path.find('.', dot + 1)) {
         const Entry* head = patterns ? find(path.substr(0, dot)) : findExact(path.substr(0, dot));
         if (head && head->dictionary) {
             if (const Entry* tail = head->dictionary->findScoped(path.substr(dot + 1), patterns)) {
@@ -65,7 +60,7 @@ const Entry* Dictionary::findScoped(std::string_view path, bool patterns) const
             }
         }
     }
-    return nullptr;
+    return patterns ? find(path) : findExact(path);
 }
 
 void Dictionary::append(Entry entry)

@@ -47,7 +47,8 @@ class Dictionary
 {
 public:
     [[nodiscard]] const Entry* find(std::string_view keyword) const; ///< nullptr where absent
-    /// `a.b.c` looked up through sub-dictionaries, the longest keyword first (keywords may hold dots).
+    /// `a.b.c` looked up through sub-dictionaries. Keywords may hold dots: the shortest one that leads to an
+    /// entry is taken first, as in OpenFOAM.
     [[nodiscard]] const Entry* findScoped(std::string_view path) const;
     [[nodiscard]] const Dictionary* findDictionary(std::string_view keyword) const;
     [[nodiscard]] const std::vector<Entry>& entries() const { return entries_; }

@@ -12,7 +12,6 @@ namespace caisson {
 
 namespace {
 
-constexpr int deepestNesting = 200;
 constexpr std::size_t mostSpent = 5'000'000; // tokens and entries that macros bring in
 
 /// The number after `name` in the header's arch "LSB;label=32;scalar=64", in bytes.
@@ -86,9 +85,9 @@ Dictionary DictionaryParser::parse(std::string_view text, const std::string& fil
 void DictionaryParser::parseFile(std::string_view text, const std::string& file,
                                  const std::filesystem::path& directory, Dictionary& into)
 {
-    Source source{Lexer(text, file), {}, directory};
+    Source source{Lexer(text, file), {}, directory, {}};
     parseEntries(source, into, false);
-    if (source.conditions > 0) {
+    if (!source.conditions.empty()) {
         fail(source.lexer.here(), "#if without #endif");
     }
 }
@@ -108,16 +107,21 @@ void DictionaryParser::parseEntries(Source& source, Dictionary& into, bool brace
             }
             return;
         }
-        if (isDirective(token)) {
-            entryDirective(source, into, token);
-        } else if (isVariable(token)) {
-            mergeVariable(source, into, token);
-        } else {
-            parseEntry(source, into, token);
-        }
+        parseStatement(source, into, token);
     }
     if (braced) {
         fail(start, "'{' without '}'", "the dictionary that opens here is not closed");
+    }
+}
+
+void DictionaryParser::parseStatement(Source& source, Dictionary& into, const Token& first)
+{
+    if (isDirective(first)) {
+        entryDirective(source, into, first);
+    } else if (isVariable(first)) {
+        mergeVariable(source, into, first);
+    } else {
+        parseEntry(source, into, first);
     }
 }
 
@@ -185,7 +189,7 @@ void DictionaryParser::parseEntry(Source& source, Dictionary& into, const Token&
             source.waiting.push_front(after);
         }
         if (dictionary && (!more || is(after, ';') || is(after, '}'))) {
-            origin_->macros.insert(next.text.substr(1));
+            rememberMacro(next.text.substr(1));
             entry.dictionary = copy(*dictionary, into, where);
             entry.dictionary->name_ = into.name_ + "." + entry.keyword;
             entry.dictionary->where_ = where;
@@ -227,7 +231,12 @@ void DictionaryParser::parseValue(Source& source, Dictionary& into, Entry entry)
             open.pop_back();
         }
         if (isVariable(token)) {
-            std::ranges::move(expand(where, token.text, into), std::back_inserter(entry.tokens));
+            std::vector<Token> tokens = expand(where, token.text, into);
+            if (open.empty() && !isWholeValue(tokens)) {
+                fail(where, "'" + token.text + "' is a dictionary, which is no part of a value",
+                     "keyword $dictionary;  is a copy of it");
+            }
+            std::ranges::move(tokens, std::back_inserter(entry.tokens));
         } else if (isDirective(token)) {
             valueDirective(source, into, token, entry.tokens);
         } else {
@@ -333,11 +342,9 @@ std::shared_ptr<Dictionary> DictionaryParser::copy(const Dictionary& from, Dicti
 std::vector<Dictionary> DictionaryParser::parseList(const Entry& entry, InputProblems& problems)
 {
     std::vector<Dictionary> result;
-    std::size_t i = 0;
     const std::vector<Token>& tokens = entry.tokens;
-    if (i < tokens.size() && tokens[i].kind == Token::Kind::number) {
-        ++i;
-    }
+    const bool counted = !tokens.empty() && tokens[0].isInteger;
+    std::size_t i = counted ? 1 : 0;
     const auto complain = [&](const std::string& what) {
         problems.add(entry.where, "'" + entry.keyword + "': " + what, "write ( { ... } { ... } )");
         return std::vector<Dictionary>{};
@@ -359,7 +366,7 @@ std::vector<Dictionary> DictionaryParser::parseList(const Entry& entry, InputPro
             parser.origin_ = entry.origin;
         }
         const int line = tokens[i].line;
-        Source source{Lexer("", entry.where.file, line), {}, {}};
+        Source source{Lexer("", entry.where.file, line), {}, {}, {}};
         int depth = 0;
         do {
             depth += is(tokens[i], '{') ? 1 : is(tokens[i], '}') ? -1 : 0;
@@ -381,6 +388,12 @@ std::vector<Dictionary> DictionaryParser::parseList(const Entry& entry, InputPro
         }
         result.push_back(std::move(dictionary));
         name.clear();
+    }
+    if (!name.empty() || i + 1 != tokens.size()) {
+        return complain("'" + (name.empty() ? tokens[i + 1].text : name) + "' is not a dictionary");
+    }
+    if (counted && tokens[0].number != static_cast<double>(result.size())) {
+        return complain("has " + std::to_string(result.size()) + " dictionaries, not " + tokens[0].text);
     }
     return result;
 }

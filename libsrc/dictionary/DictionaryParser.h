@@ -33,6 +33,8 @@ public:
                                           const SourceLocation& where);
 
 private:
+    static constexpr int deepestNesting = 200;
+
     enum class InputMode { merge, overwrite, protect, warn, error };
 
     /// Where tokens come from: a file's lexer with a place to put tokens back, or tokens alone.
@@ -41,7 +43,7 @@ private:
         Lexer lexer;
         std::deque<Token> waiting;
         std::filesystem::path directory;
-        int conditions = 0; ///< open #if blocks
+        std::vector<bool> conditions; ///< open #if blocks: whether their #else has come
         bool next(Token& token);
         [[nodiscard]] SourceLocation at(const Token& token) const { return {lexer.file(), token.line}; }
     };
@@ -59,6 +61,8 @@ private:
                    Dictionary& into);
     /// Entries up to the end of the source, or to the closing brace of a sub-dictionary.
     void parseEntries(Source& source, Dictionary& into, bool braced);
+    /// A directive, `$dictionary;`, or an entry.
+    void parseStatement(Source& source, Dictionary& into, const Token& first);
     void parseEntry(Source& source, Dictionary& into, const Token& keyword);
     void parseValue(Source& source, Dictionary& into, Entry entry);
     bool parseBinary(Source& source, const Token& open, std::vector<Token>& value) const;
@@ -86,12 +90,15 @@ private:
 
     // Macros (Macros.cpp)
     void mergeVariable(Source& source, Dictionary& into, const Token& token);
+    /// Whether these tokens may stand in a value: brackets in pairs, no ';' outside them.
+    static bool isWholeValue(const std::vector<Token>& tokens);
     /// The entry that a variable name stands for, from the scope outwards.
     Found lookup(const SourceLocation& where, std::string name, const Dictionary& scope, Match match) const;
     std::vector<Token> expand(const SourceLocation& where, std::string_view variable,
                               const Dictionary& scope);
     /// `text` with its $variables replaced by what they stand for.
     std::string expandText(const SourceLocation& where, std::string_view text, const Dictionary& scope);
+    void rememberMacro(std::string_view name);
     [[nodiscard]] std::optional<std::string> environment(const std::string& name) const;
     /// The path that `name` stands for, relative ones counted from `directory`.
     std::filesystem::path expandPath(const SourceLocation& where, const std::filesystem::path& directory,

@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <charconv>
+#include <cmath>
 #include <stdexcept>
 #include <utility>
 
@@ -43,25 +44,28 @@ std::vector<std::string> splitArguments(std::string_view text)
     return parts;
 }
 
-bool dividesWholeNumbers(const std::string& expression)
+/// Whether there is a division, and a number without '.' or exponent.
+bool dividesWholeNumbers(std::string_view expression)
 {
-    if (expression.find_first_of("/%") == std::string::npos) {
+    constexpr std::string_view digits = "0123456789";
+    constexpr std::string_view ofNames = "0123456789._abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ";
+    if (expression.find_first_of("/%") == std::string_view::npos) {
         return false;
     }
-    Lexer lexer(expression, "");
-    Token token;
-    while (lexer.next(token)) {
-        if (token.isInteger) {
+    for (std::size_t at = 0; (at = expression.find_first_of(ofNames, at)) != std::string_view::npos;) {
+        const std::size_t end = std::min(expression.find_first_not_of(ofNames, at), expression.size());
+        if (expression.substr(at, end - at).find_first_not_of(digits) == std::string_view::npos) {
             return true;
         }
+        at = end;
     }
     return false;
 }
 
 std::optional<bool> truth(const Token& token)
 {
-    if (token.kind == Token::Kind::number) {
-        return token.number != 0;
+    if (token.kind == Token::Kind::number) { // of 0.5, say, versions of OpenFOAM think differently
+        return token.number == std::floor(token.number) ? std::optional(token.number != 0) : std::nullopt;
     }
     for (const std::string_view yes : {"true", "yes", "on", "y", "t"}) {
         if (token.text == yes) {
@@ -89,12 +93,13 @@ void DictionaryParser::entryDirective(Source& source, Dictionary& into, const To
                                                                 {"#error", InputMode::error}};
     for (const auto& [name, mode] : modes) { // for one entry only
         if (word == name) {
+            const Level level(depth_, deepestNesting, where, "directives are nested too deeply");
             const InputMode before = std::exchange(mode_, mode);
-            Token keyword;
-            if (!source.next(keyword)) {
+            Token first;
+            if (!source.next(first)) {
                 fail(where, "no entry follows " + word);
             }
-            parseEntry(source, into, keyword);
+            parseStatement(source, into, first);
             mode_ = before;
             return;
         }
@@ -111,18 +116,21 @@ void DictionaryParser::entryDirective(Source& source, Dictionary& into, const To
     } else if (word == "#message") {
         source.lexer.restOfLine();
     } else if (word == "#if" || word == "#ifeq") {
-        ++source.conditions;
+        source.conditions.push_back(false);
         if (!condition(source, into, token)) {
             skipToElseOrEnd(source, true);
         }
     } else if (word == "#else" || word == "#endif") {
-        if (source.conditions == 0) {
+        if (source.conditions.empty()) {
             fail(where, word + " without #if");
         }
-        if (word == "#else") {
-            skipToElseOrEnd(source, false);
+        if (word == "#endif") {
+            source.conditions.pop_back();
+        } else if (source.conditions.back()) {
+            fail(where, "#else twice");
         } else {
-            --source.conditions;
+            source.conditions.back() = true;
+            skipToElseOrEnd(source, false);
         }
     } else if (word == "#calc" || word == "#codeStream" || word == "#eval" || word == "#word") {
         fail(where, "'" + word + "' where a keyword should stand",
@@ -238,17 +246,23 @@ void DictionaryParser::includeInValue(Source& source, const Dictionary& scope, c
     }
     const Level level(includeDepth_, deepestInclude, source.at(directive),
                       "files include each other without end");
-    Source included{Lexer(*text, path.string()), {}, path.parent_path()};
+    Source included{Lexer(*text, path.string()), {}, path.parent_path(), {}};
+    std::vector<Token> tokens;
     Token token;
     while (included.next(token)) {
         if (isVariable(token)) {
-            std::ranges::move(expand(included.at(token), token.text, scope), std::back_inserter(value));
+            std::ranges::move(expand(included.at(token), token.text, scope), std::back_inserter(tokens));
         } else if (isDirective(token)) {
-            valueDirective(included, scope, token, value);
+            valueDirective(included, scope, token, tokens);
         } else {
-            value.push_back(std::move(token));
+            tokens.push_back(std::move(token));
         }
     }
+    if (!isWholeValue(tokens)) {
+        fail({path.string(), 1}, "is included in a value, but is none",
+             "a ';' or a bracket without its other half is in it");
+    }
+    std::ranges::move(tokens, std::back_inserter(value));
 }
 
 /// `#includeFunc name(field, key=value)`: the function object of that name from system/ or from OpenFOAM's
@@ -295,7 +309,7 @@ void DictionaryParser::includeFunction(Source& source, Dictionary& into, const T
 
     const InputMode mode = std::exchange(mode_, InputMode::overwrite);
     const auto set = [&](const std::string& keyword, const std::string& value) {
-        Source tokens{Lexer(value, where.file, where.line), {}, {}};
+        Source tokens{Lexer(value, where.file, where.line), {}, {}, {}};
         Entry argument;
         argument.keyword = keyword;
         argument.where = where;
@@ -331,7 +345,7 @@ bool DictionaryParser::condition(Source& source, const Dictionary& scope, const 
 {
     const SourceLocation where = source.at(directive);
     const bool equality = directive.text == "#ifeq";
-    Source line{Lexer(source.lexer.restOfLine(), where.file, where.line), {}, source.directory};
+    Source line{Lexer(source.lexer.restOfLine(), where.file, where.line), {}, source.directory, {}};
     std::vector<Token> values;
     Token token;
     while (line.next(token)) {
@@ -389,10 +403,14 @@ void DictionaryParser::skipToElseOrEnd(Source& source, bool elseCounts)
             ++nested;
         } else if (token.text == "#endif") {
             if (nested-- == 0) {
-                --source.conditions;
+                source.conditions.pop_back();
                 return;
             }
-        } else if (token.text == "#else" && nested == 0 && elseCounts) {
+        } else if (token.text == "#else" && nested == 0) {
+            if (!elseCounts) {
+                fail(source.at(token), "#else twice");
+            }
+            source.conditions.back() = true;
             return;
         }
     }

@@ -217,6 +217,9 @@ std::span<const Token> valueTokens(const Entry& entry, const Keyword& keyword, I
     if (!given) {
         problems.add(entry.where, "'" + entry.keyword + "': '[" + symbols + "]' is no dimension set",
                      "five or seven exponents of kg m s K mol A cd, or units such as [kg m^-3]");
+    } else if (!expected && *given != Dimensions{}) {
+        problems.add(entry.where, "'" + entry.keyword + "' takes no dimension set",
+                     "leave it out (" + std::string(keyword.unit) + ")");
     } else if (expected && *given != *expected) {
         problems.add(entry.where, "'" + entry.keyword + "' has the dimensions " + printDimensions(*given),
                      "expected " + printDimensions(*expected) + ", the unit is " + std::string(keyword.unit));
@@ -244,8 +247,7 @@ KeywordReader::KeywordReader(const Dictionary& dictionary, std::span<const Keywo
         valid.emplace_back(keyword.name);
     }
     for (const Entry& entry : dictionary_.entries()) {
-        const bool coefficients = entry.keyword.ends_with("Coeffs") &&
-                                  findKeyword(table_, entry.keyword.substr(0, entry.keyword.size() - 6));
+        const bool coefficients = areCoefficients(entry);
         const bool known =
             entry.isPattern
                 ? std::ranges::any_of(valid, [&](const auto& name) { return entry.pattern->matches(name); })
@@ -258,6 +260,19 @@ KeywordReader::KeywordReader(const Dictionary& dictionary, std::span<const Keywo
                           suggestion(entry.keyword, valid, "keys"));
         }
     }
+}
+
+/// Whether `entry` is `keyCoeffs { ... }` beside `key word ...;`, as a Function1 may be written.
+bool KeywordReader::areCoefficients(const Entry& entry) const
+{
+    constexpr std::string_view ending = "Coeffs";
+    if (!entry.dictionary || !entry.keyword.ends_with(ending)) {
+        return false;
+    }
+    const std::string_view key =
+        std::string_view(entry.keyword).substr(0, entry.keyword.size() - ending.size());
+    const Entry* owner = findKeyword(table_, key) ? dictionary_.find(key) : nullptr;
+    return owner && !owner->tokens.empty() && owner->tokens[0].kind == Token::Kind::word;
 }
 
 bool KeywordReader::has(std::string_view key) const

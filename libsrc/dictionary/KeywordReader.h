@@ -54,6 +54,7 @@ public:
     [[nodiscard]] const Dictionary& source() const { return dictionary_; }
 
 private:
+    [[nodiscard]] bool areCoefficients(const Entry& entry) const;
     const Dictionary& dictionary_;
     std::span<const Keyword> table_;
     std::string what_;

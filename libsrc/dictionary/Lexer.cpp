@@ -122,8 +122,9 @@ bool Lexer::readNumber(Token& token)
     }
     digits = text_.substr(at_, parsed.ptr - (text_.data() + at_));
     const char after = at_ + digits.size() < text_.size() ? text_[at_ + digits.size()] : ' ';
-    if (std::isalpha(static_cast<unsigned char>(after)) || after == '_' || after == '.' || after == ':') {
-        return false; // 2x, 1.2.3: a word
+    if (std::isalnum(static_cast<unsigned char>(after)) ||
+        std::string_view("_.:+-").find(after) != std::string_view::npos) {
+        return false; // 2x, 1.2.3, 12-13: a word
     }
     token.kind = Token::Kind::number;
     token.text = digits;

@@ -28,8 +28,9 @@ void appendPunctuation(std::vector<Token>& tokens, char c)
     tokens.push_back(std::move(token));
 }
 
-/// Whether these tokens may stand in a value: brackets in pairs, no ';' outside braces.
-bool isWholeValue(const std::vector<Token>& tokens)
+} // namespace
+
+bool DictionaryParser::isWholeValue(const std::vector<Token>& tokens)
 {
     std::string open;
     for (const Token& token : tokens) {
@@ -40,12 +41,14 @@ bool isWholeValue(const std::vector<Token>& tokens)
                 return false;
             }
             open.pop_back();
-        } else if (is(token, ';') && !open.ends_with('{')) {
+        } else if (is(token, ';') && open.empty()) {
             return false;
         }
     }
     return open.empty();
 }
+
+namespace {
 
 /// The entries of a dictionary as the tokens that they were read from.
 void appendEntries(std::vector<Token>& tokens, const Dictionary& dictionary)
@@ -79,7 +82,7 @@ void DictionaryParser::mergeVariable(Source& source, Dictionary& into, const Tok
         name = expandText(where, name.substr(1, name.size() - 2), into);
         computed = true;
     }
-    origin_->macros.insert(name);
+    rememberMacro(name);
     Token after;
     const bool more = source.next(after);
     if (more) {
@@ -96,6 +99,15 @@ void DictionaryParser::mergeVariable(Source& source, Dictionary& into, const Tok
         std::vector<Token> tokens = expand(where, "$" + name, into);
         source.waiting.insert(source.waiting.begin(), tokens.begin(), tokens.end());
     }
+}
+
+/// `name` as written after the '$'; of `$:a.b` both `a.b` and `a` are known then.
+void DictionaryParser::rememberMacro(std::string_view name)
+{
+    name.remove_prefix(std::min(name.find_first_not_of("{:^./"), name.size()));
+    const std::string bare(name.substr(0, std::min({name.find('}'), name.find(":-"), name.find(":+")})));
+    origin_->macros.insert(bare.substr(0, bare.find_first_of("./")));
+    origin_->macros.insert(bare);
 }
 
 DictionaryParser::Found DictionaryParser::lookup(const SourceLocation& where, std::string name,
@@ -157,13 +169,11 @@ DictionaryParser::Found DictionaryParser::lookup(const SourceLocation& where, st
 
 std::optional<std::string> DictionaryParser::environment(const std::string& name) const
 {
-    if (const char* value = std::getenv(name.c_str())) {
-        return value;
+    if (name == "FOAM_CASE" && !origin_->caseDirectory.empty()) { // not the one of the shell
+        return std::filesystem::absolute(origin_->caseDirectory).string();
     }
-    if (name == "FOAM_CASE" && !origin_->caseDirectory.empty()) {
-        return origin_->caseDirectory.string();
-    }
-    return std::nullopt;
+    const char* value = std::getenv(name.c_str());
+    return value ? std::optional<std::string>(value) : std::nullopt;
 }
 
 std::vector<Token> DictionaryParser::expand(const SourceLocation& where, std::string_view variable,
@@ -191,9 +201,7 @@ std::vector<Token> DictionaryParser::expand(const SourceLocation& where, std::st
             name = expandText(where, name, scope);
         }
     }
-    const std::string bare = name.substr(std::min(name.find_first_not_of(":^./"), name.size()));
-    origin_->macros.insert(bare);
-    origin_->macros.insert(bare.substr(0, bare.find_first_of("./")));
+    rememberMacro(name);
 
     std::vector<Token> tokens;
     const Found found = text ? Found{} : lookup(where, name, scope, Match::exact);

@@ -24,11 +24,8 @@ std::optional<std::string> readTextFile(const std::filesystem::path& file)
     while ((read = gzread(stream, buffer, sizeof buffer)) > 0) {
         text.append(buffer, read);
     }
-    gzclose(stream);
-    if (read < 0) {
-        return std::nullopt;
-    }
-    return text;
+    const bool complete = gzclose(stream) == Z_OK; // a compressed file that was cut short ends in silence
+    return read == 0 && complete ? std::optional(std::move(text)) : std::nullopt;
 }
 
 } // namespace caisson

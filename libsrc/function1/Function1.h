@@ -20,7 +20,7 @@ public:
 std::unique_ptr<Function1> constantFunction1(double value);
 
 /// Reads `key` of `dictionary` in any of the spellings of OpenFOAM v1912 and v2406: bare number, inline
-/// `table ((x y) ...)`, `key tableFile; tableFileCoeffs {}`, in-place `key { type table; values (...); }`.
+/// `table ((x y) ...)`, `key tableFile; keyCoeffs {}`, in-place `key { type table; values (...); }`.
 /// Files are sought as Dictionary::filePath says. Unknown types and keys, missing files and bad values become
 /// problems; then a constant zero is returned.
 std::unique_ptr<Function1> readFunction1(const Dictionary& dictionary, std::string_view key,

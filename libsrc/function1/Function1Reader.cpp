@@ -254,7 +254,9 @@ bool Reader::readNumber(Tokens& tokens, int components, double& value) const
 /// ((x y) (x y) ...) with an optional count before; x has `firstComponents`.
 bool Reader::readRows(Tokens tokens, int firstComponents, Rows& rows) const
 {
-    if (!tokens.empty() && tokens[0].kind == Token::Kind::number) {
+    std::optional<double> count;
+    if (!tokens.empty() && tokens[0].isInteger) {
+        count = tokens[0].number;
         tokens = tokens.subspan(1);
     }
     if (tokens.size() < 2 || !is(tokens[0], '(')) {
@@ -271,7 +273,8 @@ bool Reader::readRows(Tokens tokens, int firstComponents, Rows& rows) const
         tokens = tokens.subspan(1);
         rows.push_back(row);
     }
-    return tokens.size() == 1 && is(tokens[0], ')') && !rows.empty();
+    return tokens.size() == 1 && is(tokens[0], ')') && !rows.empty() &&
+           count.value_or(static_cast<double>(rows.size())) == static_cast<double>(rows.size());
 }
 
 Reader::Result Reader::makeConstant(Tokens tokens)
@@ -339,7 +342,8 @@ Reader::Result Reader::readTable(const KeywordReader& keys, Tokens inlineValue)
         return complain(file->where, "'" + key_ + "': cannot read the table file '" + path.string() + "'");
     }
     try {
-        const Dictionary parsed = parseDictionary("rows " + *text + ";", path.string());
+        const Dictionary parsed =
+            parseDictionary("rows " + *text + "\n;", path.string()) /* a comment may end it */;
         if (parsed.entries().size() != 1 || !readRows(parsed.find("rows")->tokens, 1, rows)) {
             return complain({path.string(), 1}, "not a table ((x y) (x y) ...)");
         }
@@ -382,9 +386,21 @@ bool Reader::readCells(const std::string& line, char separator, bool merge,
 
 Reader::Result Reader::readCsv(const KeywordReader& keys, Tokens)
 {
+    constexpr double mostColumns = 1e4;
     const std::string name = keys.word("file");
     const std::vector<double> columns = keys.numbers("componentColumns");
     const std::string separator = keys.word("separator");
+    if (separator.size() != 1) {
+        return complain(keys.where("separator"),
+                        "'" + key_ + "': the separator '" + separator + "' is not one character",
+                        "a tabulator stands in the quotes as it is");
+    }
+    for (const double column : columns) {
+        if (column != std::floor(column) || column < 0 || column > mostColumns) {
+            return complain(keys.where("componentColumns"),
+                            "'" + key_ + "': componentColumns are whole numbers, from 0");
+        }
+    }
     if (name.empty() || columns.empty()) {
         return constantFunction1(0); // reported
     }
@@ -409,8 +425,7 @@ Reader::Result Reader::readCsv(const KeywordReader& keys, Tokens)
             continue;
         }
         std::array<double, 2> row{};
-        if (!readCells(line, separator.empty() ? ',' : separator[0], merge, wanted, {path.string(), number},
-                       row)) {
+        if (!readCells(line, separator[0], merge, wanted, {path.string(), number}, row)) {
             return constantFunction1(0);
         }
         rows.push_back(row);
@@ -493,8 +508,12 @@ Reader::Result Reader::readScale(const KeywordReader& keys, Tokens)
 
 Reader::Result Reader::readLimit(const KeywordReader& keys, Tokens)
 {
-    auto limit = std::make_shared<Limit>(keys.number("min"), keys.number("max"));
-    return std::make_unique<InputValueMapper>(std::move(limit), part(keys, "value", components_));
+    const double min = keys.number("min");
+    const double max = keys.number("max");
+    if (min > max) {
+        return complain(keys.where("min"), "'" + key_ + "': min is above max");
+    }
+    return std::make_unique<LimitRange>(min, max, part(keys, "value", components_));
 }
 
 Reader::Result Reader::readMapper(const KeywordReader& keys, Tokens)

@@ -136,15 +136,25 @@ private:
     SharedFunction1 mapping_, value_;
 };
 
-/// x limited to min ... max
-class Limit final : public Function1
+/// value(x limited to min ... max)
+class LimitRange final : public Function1
 {
 public:
-    Limit(double min, double max) : min_(min), max_(max) {}
-    [[nodiscard]] double value(double x) const override { return x < min_ ? min_ : x > max_ ? max_ : x; }
+    LimitRange(double min, double max, SharedFunction1 value) : min_(min), max_(max), value_(std::move(value))
+    {
+    }
+    [[nodiscard]] double value(double x) const override
+    {
+        return value_->value(x < min_ ? min_ : x > max_ ? max_ : x);
+    }
+    [[nodiscard]] double end() const override
+    {
+        return value_->end() < max_ ? value_->end() : Function1::end();
+    }
 
 private:
     double min_, max_;
+    SharedFunction1 value_;
 };
 
 } // namespace caisson

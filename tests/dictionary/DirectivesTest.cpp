@@ -33,6 +33,10 @@ TEST(Directives, conditionsThatMakeNoSenseAreRefused)
     EXPECT_EQ(refusal("#if 1\na 1;"), "file:2: #if without #endif\n");
     EXPECT_EQ(refusal("a 1;\n#endif"), "file:2: #endif without #if\n");
     EXPECT_EQ(refusal("#ifeq 1\n#endif"), "file:1: #ifeq needs two values\n    got 1\n");
+    EXPECT_EQ(refusal("#if 1\n#else\n#else\n#endif"), "file:3: #else twice\n");
+    EXPECT_EQ(refusal("#if 0\n#else\na 1;\n#else\n#endif"), "file:4: #else twice\n");
+    EXPECT_EQ(refusal("#if 0.5\n#endif"),
+              "file:1: '0.5' is neither true nor false\n    valid: true false yes no on off\n");
 }
 
 TEST(Directives, inputModesDecideAboutEqualKeys)
@@ -41,6 +45,8 @@ TEST(Directives, inputModesDecideAboutEqualKeys)
     EXPECT_EQ(expanded("#inputMode protect\na 1; a 2;"), "a 1;");
     EXPECT_EQ(expanded("a 1; #default a 2; #overwrite b { x 1; } #overwrite b { y 1; } a 3;"),
               "a 3; b { y 1; }");
+    EXPECT_EQ(expanded("a { x 1; y 2; } b { x 5; #overwrite $..a; }"), "a { x 1; y 2; } b { x 1; y 2; }");
+    EXPECT_EQ(expanded("a 1; k b; #default #overwrite a 2; #overwrite $k 3;"), "a 2; k b; b 3;");
     EXPECT_EQ(refusal("a 1;\n#error a 2;"), "file:2: 'a' is given twice\n    first on line 1\n");
     EXPECT_EQ(refusal("#inputMode merg"), "file:1: unknown input mode 'merg'\n"
                                           "    did you mean 'merge'?  valid modes: default error merge "
@@ -67,6 +73,8 @@ TEST(Directives, calcIsTakenWhereItIsPlainArithmetic)
     EXPECT_EQ(expanded("r 2.5; a #calc \"3*$r\";"), "r 2.5; a 7.5;");
     EXPECT_EQ(refusal("a #calc \"1/2\";"), "file:1: #calc divides whole numbers, which C++ would cut off\n"
                                            "    write #eval { ... } instead\n");
+    EXPECT_EQ(refusal("a #calc \"(3+2)/(1+1)\";").substr(0, 34), "file:1: #calc divides whole number");
+    EXPECT_EQ(expanded("a2 1.5; b #calc \"(3.+$a2)/(1e0+1.)\";"), "a2 1.5; b 2.25;");
     EXPECT_EQ(refusal("a #calc \"std::sin(1)\";").substr(0, 78),
               "file:1: #calc compiles C++ at run time, which caissonFoam does not do\n    for ");
     EXPECT_EQ(refusal("a #codeStream { code #{ #}; };"),
@@ -108,6 +116,32 @@ TEST(Directives, includesAreFoundWhereOpenFOAMFindsThem)
         EXPECT_EQ(dictionary.findScoped(key)->tokens[0].number, 0.4) << key;
     }
     EXPECT_EQ(dictionary.find("list")->tokens.size(), 5U);
+}
+
+TEST(Directives, foamCaseIsTheCaseThatIsRead)
+{
+    const TemporaryDirectory directory;
+    directory.write("constant/soil", "porosity 0.4;");
+    const std::filesystem::path file =
+        directory.write("system/controlDict", "#include \"$FOAM_CASE/constant/soil\"\n");
+    setenv("FOAM_CASE", "/nonexistent", 1); // as another case's shell may have it
+    EXPECT_NE(readDictionary(file, directory.path()).find("porosity"), nullptr);
+    unsetenv("FOAM_CASE");
+    const std::filesystem::path before = std::filesystem::current_path();
+    std::filesystem::current_path(directory.path());
+    EXPECT_NE(readDictionary("system/controlDict", ".").find("porosity"), nullptr);
+    std::filesystem::current_path(before);
+}
+
+TEST(Directives, whatIsIncludedInAValueHasToBeOne)
+{
+    const TemporaryDirectory directory;
+    directory.write("open", "1 2 )");
+    const std::filesystem::path file = directory.write("main", "a ( #include \"open\"\n;");
+    EXPECT_THROW(static_cast<void>(readDictionary(file, directory.path())), InputError);
+    directory.write("open", "1; b 2");
+    directory.write("main", "a #include \"open\"\n;");
+    EXPECT_THROW(static_cast<void>(readDictionary(file, directory.path())), InputError);
 }
 
 TEST(Directives, includesThatFailNameTheLine)

@@ -131,6 +131,9 @@ TEST(KeywordReader, dimensionSetsAreHeldAgainstTheUnit)
     EXPECT_EQ(problem("[Pa] 5"), "'density' has the dimensions [1 -1 -2 0 0 0 0]");
     EXPECT_EQ(problem("[kPa] 5"), "'density': '[kPa ]' is no dimension set"); // SI units only
     EXPECT_EQ(problem("[1 2] 5"), "'density': '[1 2 ]' is no dimension set");
+    Reading count("density 1; steps [kg] 10;");
+    EXPECT_EQ(count.reader().integer("steps"), 10);
+    EXPECT_EQ(count.report(), "1: 'steps' takes no dimension set | leave it out (integer)\n");
 }
 
 TEST(KeywordReader, unitsHaveTheirDimensions)
@@ -216,9 +219,13 @@ TEST(KeywordReader, patternsHaveToMatchAKey)
 
 TEST(KeywordReader, macrosTheHeaderAndCoefficientsAreNoUnknownKeys)
 {
-    Reading reading("FoamFile { class dictionary; } grains 2650; density $grains; densityCoeffs { }");
+    Reading reading(
+        "FoamFile { class dictionary; } grains 2650; density $grains; law mohrCoulomb; lawCoeffs { }");
     EXPECT_EQ(reading.reader().number("density"), 2650);
     EXPECT_EQ(reading.report(), "");
+    Reading unused("density 2650;\ndensityCoeffs { value 3; }"); // would be ignored
+    unused.reader();
+    EXPECT_EQ(unused.report().substr(0, 41), "2: unknown key 'densityCoeffs' in 'sand' ");
 }
 
 TEST(KeywordReader, theTablePrintsAsMarkdown)

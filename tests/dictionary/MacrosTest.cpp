@@ -29,6 +29,8 @@ TEST(Macros, dictionariesAreMergedCopiedAndSpliced)
     EXPECT_EQ(expanded("a { x 1; y { z 2; } } l ( first { $a; w 3; } );"),
               "a { x 1; y { z 2; } } l ( first { x 1 ; y { z 2 ; } ; w 3 ; } );");
     EXPECT_EQ(expanded("p (1 2); l ($p $p);"), "p ( 1 2 ); l ( ( 1 2 ) ( 1 2 ) );");
+    EXPECT_EQ(refusal("a { x 1; } b word $a;"), "file:1: '$a' is a dictionary, which is no part of a value\n"
+                                                "    keyword $dictionary;  is a copy of it\n");
 }
 
 TEST(Macros, defaultsAlternativesAndNestedNamesAreTaken)
@@ -50,6 +52,19 @@ TEST(Macros, theEnvironmentIsAskedLast)
     unsetenv("CAISSON_TEST_LENGTH");
 }
 
+TEST(Macros, textFromOutsideHasToBeAWholeValue)
+{
+    setenv("CAISSON_TEST_TEXT", "1; b 2", 1);
+    EXPECT_EQ(refusal("a $CAISSON_TEST_TEXT;"),
+              "file:1: '1; b 2', which '$CAISSON_TEST_TEXT' stands for, is no value\n"
+              "    a ';' or a bracket without its other half is in it\n");
+    setenv("CAISSON_TEST_TEXT", "(1 2", 1);
+    EXPECT_NE(refusal("a $CAISSON_TEST_TEXT);"), "accepted");
+    setenv("CAISSON_TEST_TEXT", "{ c 3; } (1)", 1);
+    EXPECT_EQ(expanded("a $CAISSON_TEST_TEXT;"), "a { c 3 ; } ( 1 );");
+    unsetenv("CAISSON_TEST_TEXT");
+}
+
 TEST(Macros, whatTheyReferToCountsAsAKnownKey)
 {
     const Dictionary dictionary =
@@ -57,6 +72,11 @@ TEST(Macros, whatTheyReferToCountsAsAKnownKey)
     EXPECT_TRUE(dictionary.usedAsMacro("radius"));
     EXPECT_TRUE(dictionary.usedAsMacro("b"));
     EXPECT_FALSE(dictionary.usedAsMacro("d"));
+    const Dictionary spellings = parseDictionary("a { x 1; } b { x 2; } c { x 3; } e { x 4; }"
+                                                 "f { ${a}; } g { $..b; } h $:c; i ${e}; j ${none:-1};");
+    for (const char* name : {"a", "b", "c", "e", "none"}) {
+        EXPECT_TRUE(spellings.usedAsMacro(name)) << name;
+    }
 }
 
 TEST(Macros, unknownNamesAreNamedWithTheNearest)

@@ -59,12 +59,37 @@ TEST(Syntax, lookupTakesTheExactKeyThenTheLastPattern)
     EXPECT_EQ(word("WALLS"), "anyCase");
 }
 
-TEST(Syntax, scopedLookupTriesTheLongestKeyFirst)
+TEST(Syntax, scopedLookupTakesTheShortestKeyThatLeadsToAnEntry)
 {
-    const Dictionary dictionary = parseDictionary("a { b.c 1; b { c 2; d 3; } } a.b { d 4; }");
-    EXPECT_EQ(dictionary.findScoped("a.b.c")->tokens[0].number, 1);
-    EXPECT_EQ(dictionary.findScoped("a.b.d")->tokens[0].number, 4);
-    EXPECT_EQ(dictionary.findScoped("a.b.e"), nullptr);
+    const Dictionary dictionary =
+        parseDictionary("a { b.c 1; b { c 2; d 3; } e.f 5; } a.b { d 4; g 6; } h 7; h.i 8;");
+    const auto number = [&](const char* path) {
+        const Entry* entry = dictionary.findScoped(path);
+        return entry ? entry->tokens.at(0).number : 0;
+    };
+    EXPECT_EQ(number("a.b.c"), 2);
+    EXPECT_EQ(number("a.b.d"), 3);
+    EXPECT_EQ(number("a.e.f"), 5);
+    EXPECT_EQ(number("a.b.g"), 6);
+    EXPECT_EQ(number("h.i"), 8); // OpenFOAM ends at the value h
+    EXPECT_EQ(number("a.b.e"), 0);
+    EXPECT_EQ(number("h.j"), 0);
+}
+
+TEST(Syntax, aNumberThatRunsOnIsAWord)
+{
+    const Dictionary dictionary = parseDictionary("a (12-13 5); b 2024-01-01; c 1-; d (1 -2 +3 4e-5 6e+7);");
+    const auto kinds = [&](const char* key) {
+        std::string text;
+        for (const Token& token : dictionary.find(key)->tokens) {
+            text += token.kind == Token::Kind::number ? "n" : token.kind == Token::Kind::word ? "w" : ".";
+        }
+        return text;
+    };
+    EXPECT_EQ(kinds("a"), ".wn."); // not the two numbers 12 and -13
+    EXPECT_EQ(kinds("b"), "w");
+    EXPECT_EQ(kinds("c"), "w");
+    EXPECT_EQ(kinds("d"), ".nnnnn.");
 }
 
 TEST(Syntax, binaryListsKeepTheirBytes)
@@ -101,6 +126,20 @@ TEST(Syntax, aCompressedFileStandsInForAMissingOne)
     gzputs(stream, "nu 1e-6;");
     gzclose(stream);
     EXPECT_EQ(readDictionary(file).find("nu")->tokens[0].number, 1e-6);
+}
+
+TEST(Syntax, aCompressedFileThatWasCutShortIsRefused)
+{
+    const TemporaryDirectory directory;
+    const std::filesystem::path file = directory.path() / "transportProperties.gz";
+    gzFile stream = gzopen(file.c_str(), "wb");
+    for (int i = 0; i < 20000; ++i) {
+        gzprintf(stream, "key%d %d;\n", i, i * i % 9973);
+    }
+    gzclose(stream);
+    EXPECT_EQ(readDictionary(directory.path() / "transportProperties").entries().size(), 20000U);
+    std::filesystem::resize_file(file, std::filesystem::file_size(file) / 2);
+    EXPECT_THROW(static_cast<void>(readDictionary(directory.path() / "transportProperties")), InputError);
 }
 
 TEST(Syntax, whatIsWrongIsNamedWithItsLine)
@@ -151,6 +190,17 @@ TEST(Syntax, dictionariesInAListAreRead)
     dictionariesIn(*wrong.find("regions"), problems);
     ASSERT_EQ(problems.all().size(), 1U);
     EXPECT_EQ(problems.all()[0].message, "'regions': '3' is not a dictionary");
+
+    const auto complaint = [](const std::string& text) {
+        InputProblems found;
+        static_cast<void>(dictionariesIn(*parseDictionary("regions " + text + ";").find("regions"), found));
+        return found.empty() ? "" : found.all()[0].message;
+    };
+    EXPECT_EQ(complaint("2({ a 1; } { a 2; })"), "");
+    EXPECT_EQ(complaint("3({ a 1; } { a 2; })"), "'regions': has 2 dictionaries, not 3");
+    EXPECT_EQ(complaint("({ a 1; } sand)"), "'regions': 'sand' is not a dictionary");
+    EXPECT_EQ(complaint("({ a 1; }) { b 2; }"), "'regions': '{' is not a dictionary");
+    EXPECT_EQ(complaint("()"), "");
 }
 
 TEST(Syntax, aFieldOfAHundredThousandNumbersIsReadInATenthOfASecond)

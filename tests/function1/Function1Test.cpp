@@ -4,6 +4,7 @@
 
 #include <cmath>
 #include <fstream>
+#include <limits>
 #include <numbers>
 #include <unistd.h>
 
@@ -173,7 +174,7 @@ TEST(Function1, filesCountFromTheCase)
     std::string name = (std::filesystem::temp_directory_path() / "caissonFunction1XXXXXX").string();
     const std::filesystem::path directory = mkdtemp(name.data());
     std::filesystem::create_directories(directory / "constant");
-    std::ofstream(directory / "constant/rows") << "// time velocity\n2\n(\n(0 1)\n(2 5)\n)\n";
+    std::ofstream(directory / "constant/rows") << "// time velocity\n2\n(\n(0 1)\n(2 5)\n) // no end of line";
     std::ofstream(directory / "constant/rows.csv") << "t;x;v\n 0 ;9; 1 \r\n\n2;9;+5e0\r\n";
     std::ofstream(directory / "constant/merged.csv") << "0  9  1\n2 9   5\n";
     std::ofstream(directory / "constant/bad.csv") << "0,1\n1,two\n";
@@ -293,6 +294,28 @@ TEST(Function1, whatIsWrongIsSaidWithWhatWouldBeRight)
               "'f' is no number and no Function1 | write a value, or f { type table; values "
               "((x y) ...); }");
     EXPECT_EQ(refusal("f { type scale; value 1; }"), "'f' needs 'scale' | a Function1");
+    EXPECT_EQ(refusal("f table 3((0 1) (2 3));"), "'f': the table's rows are not ((x y) (x y) ...) | ");
+    EXPECT_EQ(refusal("f table 2.5((0 1) (2 3));"), "'f': the table's rows are not ((x y) (x y) ...) | ");
+    EXPECT_EQ(refusal("f { type limitRange; min 3; max 1; value 2; }"), "'f': min is above max | ");
+    const std::string csv = "f { type csvFile; file \"x\"; componentColumns ";
+    EXPECT_EQ(refusal(csv + "(1.5); }"), "'f': componentColumns are whole numbers, from 0 | ");
+    EXPECT_EQ(refusal(csv + "(-1); }"), "'f': componentColumns are whole numbers, from 0 | ");
+    EXPECT_EQ(refusal(csv + "(1); separator \"\\t\"; }"), "'f': the separator '\\t' is not one character | "
+                                                          "a tabulator stands in the quotes as it is");
+}
+
+TEST(Function1, aLimitedVariableDoesNotLeaveATable)
+{
+    const auto end = [](const std::string& max) {
+        InputProblems problems;
+        const auto function = read("f { type limitRange; min 0; max " + max +
+                                       "; value { type table; values ((0 0) (2 4)); outOfBounds error; } }",
+                                   problems);
+        EXPECT_TRUE(problems.empty());
+        return function->end();
+    };
+    EXPECT_EQ(end("2"), std::numeric_limits<double>::infinity());
+    EXPECT_EQ(end("3"), 2);
 }
 
 } // namespace caisson
