@@ -163,6 +163,7 @@ void DictionaryParser::parseEntry(Source& source, Dictionary& into, const Token&
         fail(where, "'" + entry.keyword + "' has no value", "the file ends here: is a ';' missing?");
     }
     if (is(next, '{')) {
+        const InputMode mode = mode_; // an #inputMode in the braces is for what comes after
         entry.dictionary = makeDictionary(into, entry);
         parseEntries(source, *entry.dictionary, true);
         if (entry.keyword == "FoamFile") {
@@ -178,7 +179,7 @@ void DictionaryParser::parseEntry(Source& source, Dictionary& into, const Token&
                      "convert it on a machine of that kind (foamFormatConvert)");
             }
         }
-        add(into, std::move(entry));
+        add(into, std::move(entry), mode);
         return;
     }
     if (isVariable(next)) { // `key $dictionary;` is a copy of it
@@ -193,7 +194,7 @@ void DictionaryParser::parseEntry(Source& source, Dictionary& into, const Token&
             entry.dictionary = copy(*dictionary, into, where);
             entry.dictionary->name_ = into.name_ + "." + entry.keyword;
             entry.dictionary->where_ = where;
-            add(into, std::move(entry));
+            add(into, std::move(entry), mode_);
             return;
         }
     }
@@ -208,7 +209,7 @@ void DictionaryParser::parseValue(Source& source, Dictionary& into, Entry entry)
     while (source.next(token)) {
         const SourceLocation where = source.at(token);
         if (is(token, ';') && open.empty()) {
-            add(into, std::move(entry));
+            add(into, std::move(entry), mode_);
             return;
         }
         if (is(token, '}') && open.empty()) {
@@ -272,7 +273,7 @@ bool DictionaryParser::parseBinary(Source& source, const Token& open, std::vecto
     return true;
 }
 
-void DictionaryParser::add(Dictionary& into, Entry entry)
+void DictionaryParser::add(Dictionary& into, Entry entry, InputMode mode)
 {
     const auto place = into.index_.find(entry.keyword);
     if (place == into.index_.end()) {
@@ -280,10 +281,10 @@ void DictionaryParser::add(Dictionary& into, Entry entry)
         return;
     }
     Entry& existing = into.entries_[place->second];
-    switch (mode_) {
+    switch (mode) {
     case InputMode::merge:
         if (existing.dictionary && entry.dictionary) {
-            merge(*existing.dictionary, *entry.dictionary, entry.where);
+            merge(*existing.dictionary, *entry.dictionary, entry.where, InputMode::merge);
             return;
         }
         break;
@@ -304,18 +305,17 @@ void DictionaryParser::add(Dictionary& into, Entry entry)
     existing = std::move(entry);
 }
 
-void DictionaryParser::merge(Dictionary& into, const Dictionary& from, const SourceLocation& where)
+void DictionaryParser::merge(Dictionary& into, const Dictionary& from, const SourceLocation& where,
+                             InputMode mode)
 {
-    const InputMode mode = std::exchange(mode_, InputMode::merge);
     for (const Entry& entry : from.entries_) {
         spend(where, 1 + entry.tokens.size());
         Entry copied = entry;
         if (entry.dictionary) {
             copied.dictionary = copy(*entry.dictionary, into, where);
         }
-        add(into, std::move(copied));
+        add(into, std::move(copied), mode);
     }
-    mode_ = mode;
 }
 
 std::shared_ptr<Dictionary> DictionaryParser::copy(const Dictionary& from, Dictionary& parent,

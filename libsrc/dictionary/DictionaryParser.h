@@ -67,8 +67,8 @@ private:
     void parseValue(Source& source, Dictionary& into, Entry entry);
     bool parseBinary(Source& source, const Token& open, std::vector<Token>& value) const;
     [[nodiscard]] std::shared_ptr<Dictionary> makeDictionary(Dictionary& parent, const Entry& entry) const;
-    void add(Dictionary& into, Entry entry);
-    void merge(Dictionary& into, const Dictionary& from, const SourceLocation& where);
+    void add(Dictionary& into, Entry entry, InputMode mode);
+    void merge(Dictionary& into, const Dictionary& from, const SourceLocation& where, InputMode mode);
     std::shared_ptr<Dictionary> copy(const Dictionary& from, Dictionary& parent, const SourceLocation& where);
 
     // Directives (Directives.cpp)

@@ -335,7 +335,7 @@ void DictionaryParser::includeFunction(Source& source, Dictionary& into, const T
         set("fields", std::to_string(count) + "(" + fields + ");");
     }
     mode_ = mode;
-    add(into, std::move(entry));
+    add(into, std::move(entry), mode_);
 }
 
 // ---------------------------------------------------------------------------------------------------------

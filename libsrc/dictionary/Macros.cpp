@@ -91,7 +91,10 @@ void DictionaryParser::mergeVariable(Source& source, Dictionary& into, const Tok
     const bool alone = !more || is(after, ';') || is(after, '}');
     const Found found = lookup(where, name, into, Match::patterns);
     if (found.dictionary && !is(after, '{')) {
-        merge(into, *copy(*found.dictionary, into, where), where); // a copy: it may hold this very place
+        // A copy, for it may hold this very place. Modes that keep the first of two equal keys keep it here,
+        // too.
+        merge(into, *copy(*found.dictionary, into, where), where,
+              mode_ == InputMode::overwrite ? InputMode::merge : mode_);
     } else if (alone && found.entry) {
         fail(where, "'" + token.text + ";' merges a dictionary, but '" + name + "' is a value",
              "it is defined on line " + std::to_string(found.entry->where.line));

@@ -47,6 +47,10 @@ TEST(Directives, inputModesDecideAboutEqualKeys)
               "a 3; b { y 1; }");
     EXPECT_EQ(expanded("a { x 1; y 2; } b { x 5; #overwrite $..a; }"), "a { x 1; y 2; } b { x 1; y 2; }");
     EXPECT_EQ(expanded("a 1; k b; #default #overwrite a 2; #overwrite $k 3;"), "a 2; k b; b 3;");
+    EXPECT_EQ(expanded("m { x 1; s { p 1; r 3; } z 9; } t { x 2; s { p 5; } #default $..m; }"),
+              "m { x 1; s { p 1; r 3; } z 9; } t { x 2; s { p 5; } z 9; }");
+    EXPECT_EQ(expanded("a { x 1; } a { y 2; #inputMode overwrite\n} a { z 3; }"), "a { z 3; }");
+    EXPECT_EQ(expanded("a { x 1; } #inputMode overwrite\na { y 2; #inputMode merge\n}"), "a { y 2; }");
     EXPECT_EQ(refusal("a 1;\n#error a 2;"), "file:2: 'a' is given twice\n    first on line 1\n");
     EXPECT_EQ(refusal("#inputMode merg"), "file:1: unknown input mode 'merg'\n"
                                           "    did you mean 'merge'?  valid modes: default error merge "
