@@ -125,6 +125,8 @@ private:
     Result makeTable(const KeywordReader& keys, Rows rows);
     [[nodiscard]] bool readNumber(Tokens& tokens, int components, double& value) const;
     [[nodiscard]] bool readRows(Tokens tokens, int firstComponents, Rows& rows) const;
+    std::optional<std::string> readFile(const std::string& name, const SourceLocation& where,
+                                        std::filesystem::path& path);
     bool readCells(const std::string& line, char separator, bool merge, const std::array<long, 2>& columns,
                    const SourceLocation& where, std::array<double, 2>& row);
     /// A function that this one is made of, of 1 component or as many as this one has; where it is not
@@ -317,6 +319,23 @@ Reader::Result Reader::makeTable(const KeywordReader& keys, Rows rows)
     return std::make_unique<Table>(std::move(rows), outOfBounds, where_, key_);
 }
 
+/// The text of the file that `name` stands for; a problem where there is none.
+std::optional<std::string> Reader::readFile(const std::string& name, const SourceLocation& where,
+                                            std::filesystem::path& path)
+{
+    try {
+        path = dictionary_.filePath(name);
+    } catch (const InputError& error) {
+        complain(where, error.problems().front().message, error.problems().front().hint);
+        return std::nullopt;
+    }
+    auto text = readTextFile(path);
+    if (!text) {
+        complain(where, "'" + key_ + "': cannot read the file '" + path.string() + "'");
+    }
+    return text;
+}
+
 /// Inline rows, `values`, or a file of rows.
 Reader::Result Reader::readTable(const KeywordReader& keys, Tokens inlineValue)
 {
@@ -336,10 +355,10 @@ Reader::Result Reader::readTable(const KeywordReader& keys, Tokens inlineValue)
         return complain(where_, "'" + key_ + "': a table needs its rows or one file",
                         "values ((x y) (x y) ...);  or  file \"name\";");
     }
-    const std::filesystem::path path = dictionary_.filePath(file->tokens[0].text);
-    const auto text = readTextFile(path);
+    std::filesystem::path path;
+    const auto text = readFile(file->tokens[0].text, file->where, path);
     if (!text) {
-        return complain(file->where, "'" + key_ + "': cannot read the table file '" + path.string() + "'");
+        return constantFunction1(0);
     }
     try {
         const Dictionary parsed =
@@ -409,10 +428,10 @@ Reader::Result Reader::readCsv(const KeywordReader& keys, Tokens)
                                                             " component(s), componentColumns " +
                                                             std::to_string(columns.size()));
     }
-    const std::filesystem::path path = dictionary_.filePath(name);
-    const auto text = readTextFile(path);
+    std::filesystem::path path;
+    const auto text = readFile(name, keys.where("file"), path);
     if (!text) {
-        return complain(keys.where("file"), "'" + key_ + "': cannot read the file '" + path.string() + "'");
+        return constantFunction1(0);
     }
     const std::array<long, 2> wanted{keys.integer("refColumn"), std::lround(columns[component_])};
     const long header = keys.integer("nHeaderLine");

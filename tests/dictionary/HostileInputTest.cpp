@@ -35,6 +35,7 @@ TEST(HostileInput, deepNestingIsRefused)
 {
     EXPECT_EQ(refusedSoon(times(100000, "a {")), "file:1: dictionaries are nested too deeply");
     EXPECT_EQ(refusedSoon("a " + times(100000, "(")), "file:1: lists are nested too deeply");
+    EXPECT_EQ(refusedSoon(times(100000, "#default ")), "file:1: directives are nested too deeply");
     EXPECT_EQ(refusedSoon("a #eval{" + times(100000, "(") + "};").substr(0, 30),
               "file:1: #eval: nested too deep");
     EXPECT_EQ(refusedSoon("a " + times(100000, "${") + times(100000, "}") + ";"),

@@ -189,6 +189,7 @@ TEST(Function1, filesCountFromTheCase)
            "bad { type csvFile; file \"constant/bad.csv\"; componentColumns (1); }\n"
            "far { type csvFile; file \"constant/bad.csv\"; componentColumns (7); }\n"
            "missing { type table; file \"constant/none\"; }\n"
+           "unknown { type csvFile; file \"$nowhere/none\"; componentColumns (1); }\n"
            "list ( { f { type table; file \"constant/rows\"; } } );\n";
     const Dictionary dictionary = readDictionary(directory / "constant/bodies", directory, "constant/bodies");
     for (const char* key : {"a", "b", "c", "d", "e"}) {
@@ -203,15 +204,17 @@ TEST(Function1, filesCountFromTheCase)
     const std::vector<Dictionary> list = dictionariesIn(*dictionary.find("list"), problems);
     EXPECT_EQ(readFunction1(list.at(0), "f", problems)->value(0.5), 2);
     EXPECT_TRUE(problems.empty());
-    for (const char* key : {"bad", "far", "missing"}) {
+    for (const char* key : {"bad", "far", "missing", "unknown"}) {
         static_cast<void>(readFunction1(dictionary, key, problems));
     }
-    ASSERT_EQ(problems.all().size(), 3U);
+    ASSERT_EQ(problems.all().size(), 4U);
     EXPECT_EQ(problems.all()[0].where.line, 2);
     EXPECT_EQ(problems.all()[0].message, "'two' is not a number");
     EXPECT_EQ(problems.all()[1].message, "has no column 7");
     EXPECT_EQ(problems.all()[2].message,
-              "'missing': cannot read the table file '" + (directory / "constant/none").string() + "'");
+              "'missing': cannot read the file '" + (directory / "constant/none").string() + "'");
+    EXPECT_EQ(problems.all()[3].message, "nothing is called 'nowhere' for the macro '$nowhere'");
+    EXPECT_EQ(problems.all()[3].where.line, 9);
     std::filesystem::remove_all(directory);
 }
 
