@@ -10,6 +10,8 @@ namespace caisson {
 
 namespace {
 
+void findEdges(BodySurface& surface, const BackgroundMesh& mesh);
+
 /// Distance from a place to an edge of the body at its present level.
 double distance(const RigidBody& body, const ProfileEdge& edge, double r, double z)
 {
@@ -102,6 +104,7 @@ BodySurface findBodySurface(const RigidBody& body, const BackgroundMesh& mesh, I
         surface.nodes.push_back(node);
     }
 
+    findEdges(surface, mesh);
     updateAreas(surface, mesh);
 
     // The neighbourhood of the tip's corners: the next node along the tip's level, away from the tip.
@@ -145,13 +148,13 @@ BodySurface findBodySurface(const RigidBody& body, const BackgroundMesh& mesh, I
     return surface;
 }
 
-void updateAreas(BodySurface& surface, const BackgroundMesh& mesh)
+namespace {
+
+void findEdges(BodySurface& surface, const BackgroundMesh& mesh)
 {
-    const bool axisymmetric = mesh.geometry == Geometry::axisymmetric;
     std::vector<int> surfaceIndex(mesh.nodes(), -1);
     for (std::size_t i = 0; i < surface.nodes.size(); ++i) {
         surfaceIndex[surface.nodes[i].node] = static_cast<int>(i);
-        surface.nodes[i].area = {};
     }
     for (const SurfaceNode& start : surface.nodes) {
         for (int k = mesh.nodeCells.start[start.node]; k < mesh.nodeCells.start[start.node + 1]; ++k) {
@@ -167,14 +170,38 @@ void updateAreas(BodySurface& surface, const BackgroundMesh& mesh)
             // Normal into the soil: the cell lies to the left of a -> b, so it points to the left.
             const std::array<double, 2> normal{-(mesh.z[b] - mesh.z[a]) / length,
                                                (mesh.r[b] - mesh.r[a]) / length};
-            for (const auto& [self, other] : {std::pair{a, b}, std::pair{b, a}}) {
-                SurfaceNode& node = surface.nodes[surfaceIndex[self]];
-                const double weight = axisymmetric ? (2 * mesh.r[self] + mesh.r[other]) / 6 : 0.5;
+            BodySurface::Edge edge{{surfaceIndex[a], surfaceIndex[b]}, {-1, -1}};
+            for (int end = 0; end < 2; ++end) {
+                const SurfaceNode& node = surface.nodes[edge.node[end]];
                 for (int f = 0; f < node.faces; ++f) {
                     if (node.normal[f][0] * normal[0] + node.normal[f][1] * normal[1] > 0.9) {
-                        node.area[f] += weight * length;
+                        edge.face[end] = f;
                     }
                 }
+            }
+            surface.edges.push_back(edge);
+        }
+    }
+}
+
+} // namespace
+
+void updateAreas(BodySurface& surface, const BackgroundMesh& mesh)
+{
+    const bool axisymmetric = mesh.geometry == Geometry::axisymmetric;
+    for (SurfaceNode& node : surface.nodes) {
+        node.area = {};
+    }
+    for (const BodySurface::Edge& edge : surface.edges) {
+        const int a = surface.nodes[edge.node[0]].node;
+        const int b = surface.nodes[edge.node[1]].node;
+        const double length = std::hypot(mesh.r[b] - mesh.r[a], mesh.z[b] - mesh.z[a]);
+        for (int end = 0; end < 2; ++end) {
+            const int self = end == 0 ? a : b;
+            const int other = end == 0 ? b : a;
+            if (edge.face[end] >= 0) {
+                const double weight = axisymmetric ? (2 * mesh.r[self] + mesh.r[other]) / 6 : 0.5;
+                surface.nodes[edge.node[end]].area[edge.face[end]] += weight * length;
             }
         }
     }

@@ -36,7 +36,14 @@ struct SurfaceNode
 /// the normal is the integral of N n over both faces.
 struct BodySurface
 {
+    /// A side of a soil cell on the surface: its two nodes (indices into `nodes`) and their faces.
+    struct Edge
+    {
+        std::array<int, 2> node, face;
+    };
+
     std::vector<SurfaceNode> nodes;
+    std::vector<Edge> edges;
     std::vector<unsigned char> voidCell; ///< per cell of the mesh: inside the body
 };
 

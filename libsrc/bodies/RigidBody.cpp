@@ -16,6 +16,17 @@ double RigidBody::prescribedVelocity(double time) const
     return -rate * share;
 }
 
+double RigidBody::innerRadius() const
+{
+    double radius = 0;
+    for (const ProfileEdge& edge : profile) {
+        if (edge.part == SurfacePart::inner && (radius == 0 || edge.from[0] < radius)) {
+            radius = edge.from[0];
+        }
+    }
+    return radius;
+}
+
 bool RigidBody::contains(double r, double z) const
 {
     const double height = z - tipLevel;

@@ -49,6 +49,8 @@ struct RigidBody
     [[nodiscard]] double penetration() const { return surfaceLevel - tipLevel; }
     /// Prescribed velocity (upward positive) at a time [s] and the present penetration.
     [[nodiscard]] double prescribedVelocity(double time) const;
+    /// Radius of the space that the body encloses: of its inner face; 0 where it has none [m].
+    [[nodiscard]] double innerRadius() const;
     /// Whether (r, z) is inside the body now.
     [[nodiscard]] bool contains(double r, double z) const;
 };

@@ -33,6 +33,10 @@ std::vector<Keyword> generalKeywords()
          "(1-n) solidDensity."},
         {"intrinsicPermeability", "m2", "-", "(0, inf)",
          "Intrinsic permeability, hydraulic conductivity times viscosity over unit weight; two-phase only."},
+        {"permeabilityLaw", "word", "constant", "constant kozenyCarman",
+         "Whether the permeability follows the porosity, as n^3/(1-n)^2, or not; two-phase only."},
+        {"cavitationPressure", "Pa", "-", "(-inf, 0]",
+         "Least pore pressure, in the measure of 0/p; none where left out; two-phase only."},
         {"liquidBulkModulus", "Pa", "2.2e9", "(0, inf)", "Bulk modulus of the pore liquid; two-phase only."},
         {"liquidViscosity", "Pa s", "1e-3", "(0, inf)",
          "Dynamic viscosity of the pore liquid; two-phase only."},
@@ -88,6 +92,9 @@ Material readMaterial(const std::string& name, const Dictionary& dictionary, Inp
                        "check solidDensity and liquidDensity, or choose weight saturated or dry");
     if (reader.has("intrinsicPermeability"))
         material.intrinsicPermeability = reader.number("intrinsicPermeability");
+    material.kozenyCarman = reader.word("permeabilityLaw") == "kozenyCarman";
+    if (reader.has("cavitationPressure"))
+        material.cavitationPressure = reader.number("cavitationPressure");
     material.liquidBulkModulus = reader.number("liquidBulkModulus");
     material.liquidViscosity = reader.number("liquidViscosity");
     if (known)

@@ -2,6 +2,8 @@
 
 #include "constitutive/ConstitutiveLaw.h"
 
+#include <limits>
+
 namespace caisson {
 
 /// What a one-phase soil weighs: under water the liquid's own weight is carried by the hydrostatic pressure.
@@ -19,11 +21,23 @@ struct Material
     double intrinsicPermeability = 0; ///< [m2]; 0 where not given: a two-phase scene has to ask for it
     double liquidBulkModulus = 0;     ///< [Pa]
     double liquidViscosity = 0;       ///< dynamic [Pa s]
+    bool kozenyCarman = false;        ///< permeability follows the porosity
+    double cavitationPressure = std::numeric_limits<double>::lowest(); ///< least pore pressure [Pa]
 
     /// Mass that is accelerated per volume [kg/m3]: saturated (dry for Weight::dry).
     [[nodiscard]] double inertialDensity() const;
     /// Mass that gravity acts on per volume [kg/m3]: (1-n)(rho_s-rho_w), (1-n)rho_s + n rho_w, or (1-n)rho_s.
     [[nodiscard]] double weighingDensity() const;
+    /// Intrinsic permeability at a porosity n [m2]; Kozeny and Carman: proportional to n^3/(1-n)^2.
+    [[nodiscard]] double permeability(double n) const
+    {
+        if (!kozenyCarman) {
+            return intrinsicPermeability;
+        }
+        const double ratio = n / porosity;
+        const double solid = (1 - n) / (1 - porosity);
+        return intrinsicPermeability * ratio * ratio * ratio / (solid * solid);
+    }
 };
 
 /// Reads constant/materialProperties: one sub-dictionary per material, its keys and those of its law flat in

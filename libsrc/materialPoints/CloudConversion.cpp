@@ -101,6 +101,11 @@ Cloud cloud(const MaterialPoints& points, const std::vector<std::string>& stateN
     result.fields.push_back(labels("id", points.id));
     result.fields.push_back(
         interleaved("initialPosition", FieldKind::vector, n, inPlane(points.initialR, points.initialZ)));
+    if (points.twoPhase()) {
+        result.fields.push_back(
+            interleaved("liquidVelocity", FieldKind::vector, n, inPlane(points.wr, points.wz)));
+        result.fields.push_back(plain("porePressure", points.porePressure));
+    }
     for (std::size_t k = 0; k < stateNames.size(); ++k) {
         result.fields.push_back(plain(stateNames[k], points.state[k]));
     }
@@ -135,6 +140,12 @@ MaterialPoints materialPoints(const Cloud& cloud, const std::vector<std::string>
     const auto& initial = values(cloud, "initialPosition", FieldKind::vector);
     points.initialR = component(initial, 0, 3);
     points.initialZ = component(initial, 2, 3);
+    if (std::ranges::find(cloud.fields, "porePressure", &NamedField::name) != cloud.fields.end()) {
+        points.porePressure = values(cloud, "porePressure", FieldKind::scalar);
+        const auto& liquid = values(cloud, "liquidVelocity", FieldKind::vector);
+        points.wr = component(liquid, 0, 3);
+        points.wz = component(liquid, 2, 3);
+    }
     for (const std::string& name : stateNames) {
         points.state.push_back(values(cloud, name, FieldKind::scalar));
     }

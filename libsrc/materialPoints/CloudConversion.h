@@ -10,7 +10,8 @@ namespace caisson {
 
 /// Material points as OpenFOAM keeps a cloud, every bit of them: positions (r 0 z) and the fields velocity,
 /// stress (symmTensor; effective, tension positive), mass, volume (per radian or per metre), material, id,
-/// initialPosition, and a scalar field for each state variable.
+/// initialPosition, for two-phase soil liquidVelocity and porePressure, and a scalar field for each state
+/// variable.
 /// @param stateNames  names of the state variables, in their order; as many as the points have
 Cloud cloud(const MaterialPoints& points, const std::vector<std::string>& stateNames);
 

@@ -184,4 +184,52 @@ void setInitialStress(SeededPoints& seeded, const std::vector<Material>& materia
     }
 }
 
+std::vector<std::string> initialPorePressureTypes() { return {"hydrostatic", "uniform"}; }
+
+std::vector<Keyword> initialPorePressureKeywords(const std::string& type)
+{
+    std::vector<Keyword> keywords = {
+        {"type", "word", "", "hydrostatic uniform", "how the pore pressure at the start is found"}};
+    if (type == "hydrostatic") {
+        keywords.push_back({"level", "m", "0", "", "where the hydrostatic part rho_w g (level - z) is zero"});
+        keywords.push_back({"pressure", "Pa", "0", "", "added to the hydrostatic part"});
+    } else {
+        keywords.push_back({"pressure", "Pa", "", "", "pore pressure, compression positive"});
+    }
+    return keywords;
+}
+
+InitialPorePressure readInitialPorePressure(const Dictionary& dictionary, InputProblems& problems)
+{
+    const Entry* entry = dictionary.find("type");
+    const std::string type = entry != nullptr && entry->tokens.size() == 1 ? entry->tokens[0].text : "";
+    const std::vector<std::string> types = initialPorePressureTypes();
+    InitialPorePressure initial;
+    if (std::ranges::find(types, type) == types.end()) {
+        problems.add(entry != nullptr ? entry->where : dictionary.where(),
+                     entry != nullptr ? "unknown word '" + type + "' for type of porePressure"
+                                      : "missing key 'type' in porePressure",
+                     suggestion(type, types, "types"));
+        return initial;
+    }
+    const std::vector<Keyword> keywords = initialPorePressureKeywords(type);
+    const KeywordReader reader(dictionary, keywords, "porePressure", problems);
+    initial.hydrostatic = type == "hydrostatic";
+    initial.level = initial.hydrostatic ? reader.number("level") : 0;
+    initial.pressure = reader.number("pressure");
+    return initial;
+}
+
+void setInitialPorePressure(SeededPoints& seeded, const std::vector<Material>& materials,
+                            const InitialPorePressure& initial, const std::array<double, 2>& gravity)
+{
+    MaterialPoints& points = seeded.points;
+    points.addLiquid();
+    for (std::size_t p = 0; p < points.size(); ++p) {
+        const double unitWeight = -materials[points.material[p]].liquidDensity * gravity[1];
+        points.porePressure[p] =
+            initial.pressure + (initial.hydrostatic ? unitWeight * (initial.level - points.z[p]) : 0);
+    }
+}
+
 } // namespace caisson

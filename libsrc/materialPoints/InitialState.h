@@ -23,6 +23,24 @@ std::vector<Keyword> initialStateKeywords(const std::string& type);
 /// Reads `initialState { type K0; K0 0.384; surfaceLevel 0; overburden 0; }`.
 InitialState readInitialState(const Dictionary& dictionary, InputProblems& problems);
 
+/// Pore pressure of the points at the start, of two-phase soil.
+struct InitialPorePressure
+{
+    double level = 0;         ///< where the hydrostatic part is zero [m]
+    double pressure = 0;      ///< added to it [Pa]
+    bool hydrostatic = false; ///< whether there is one
+};
+
+std::vector<Keyword> initialPorePressureKeywords(const std::string& type);
+std::vector<std::string> initialPorePressureTypes();
+
+/// Reads `porePressure { type hydrostatic; level 0; pressure 0; }` or `{ type uniform; pressure 5e3; }`.
+InitialPorePressure readInitialPorePressure(const Dictionary& dictionary, InputProblems& problems);
+
+/// Makes the points two-phase: rho_w g (level - z) + pressure, the liquid moving with the solid.
+void setInitialPorePressure(SeededPoints& seeded, const std::vector<Material>& materials,
+                            const InitialPorePressure& initial, const std::array<double, 2>& gravity);
+
 /// Sets the stress of all points. K0: the vertical stress carries the overburden and the weight
 /// (weighingDensity) of what lies above; materials of different weight must lie in horizontal layers, the
 /// uppermost of which reaches to surfaceLevel.

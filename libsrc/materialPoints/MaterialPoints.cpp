@@ -14,6 +14,11 @@ void forEachArray(MaterialPoints& points, const Change& change)
                                        &points.volume, &points.initialR, &points.initialZ}) {
         change(*array);
     }
+    if (points.twoPhase()) {
+        for (std::vector<double>* array : {&points.wr, &points.wz, &points.porePressure}) {
+            change(*array);
+        }
+    }
     for (std::vector<double>& component : points.stress) {
         change(component);
     }
@@ -31,6 +36,13 @@ void MaterialPoints::resize(std::size_t points, std::size_t stateVariables)
 {
     state.resize(stateVariables);
     forEachArray(*this, [points](auto& array) { array.resize(points); });
+}
+
+void MaterialPoints::addLiquid()
+{
+    wr = vr;
+    wz = vz;
+    porePressure.assign(size(), 0);
 }
 
 void MaterialPoints::reorder(const std::vector<int>& order)

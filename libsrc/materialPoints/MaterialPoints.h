@@ -21,9 +21,15 @@ struct MaterialPoints
     std::vector<int> material;                 ///< index into the scene's materials
     std::vector<int> id;                       ///< stays with the point for its life
     std::vector<double> initialR, initialZ;    ///< place at the start of the simulation [m]
+    /// Two-phase soil only, otherwise empty: velocity of the pore liquid [m/s], and its pressure, compression
+    /// positive [Pa].
+    std::vector<double> wr, wz, porePressure;
 
     [[nodiscard]] std::size_t size() const { return r.size(); }
+    [[nodiscard]] bool twoPhase() const { return !porePressure.empty(); }
     void resize(std::size_t points, std::size_t stateVariables);
+    /// Adds the liquid, moving with the solid, at zero pressure.
+    void addLiquid();
     /// Physically reorders every array: new item i is old item order[i].
     void reorder(const std::vector<int>& order);
 };

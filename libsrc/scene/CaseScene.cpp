@@ -74,6 +74,67 @@ void readConditions(const std::filesystem::path& caseDirectory, const std::files
     }
 }
 
+/// What the pore liquid needs: its properties in every material, and 0/p.
+void readLiquid(const std::filesystem::path& caseDirectory, const std::string& start,
+                const PolyMesh& polyMesh, CaseScene& result, InputProblems& problems)
+{
+    const SourceLocation materialsFile{"constant/materialProperties", 0};
+    for (const Material& material : result.scene.materials) {
+        if (material.intrinsicPermeability <= 0) {
+            problems.add(materialsFile, "'" + material.name + "' has no intrinsicPermeability",
+                         "two-phase soil (phases 2) needs it, in m2: 1e-11 is a fine sand");
+        }
+        if (material.weight != Weight::submerged) {
+            problems.add(materialsFile, "'" + material.name + "' has a weight other than submerged",
+                         "in two-phase soil the liquid bears its own weight: leave the key out");
+        }
+        if (material.porosity <= 0) {
+            problems.add(materialsFile, "'" + material.name + "' has no porosity");
+        }
+        if (material.liquidDensity != result.scene.materials.front().liquidDensity) {
+            problems.add(materialsFile,
+                         "'" + material.name + "' has another liquidDensity than '" +
+                             result.scene.materials.front().name + "'",
+                         "one liquid fills all pores");
+        }
+    }
+    const auto fieldP = readCaseDictionary(caseDirectory, start + "/p",
+                                           "the conditions on the pore pressure per patch", problems);
+    if (!fieldP) {
+        return;
+    }
+    const double unitWeight =
+        -result.scene.gravity[1] *
+        (result.scene.materials.empty() ? 0 : result.scene.materials.front().liquidDensity);
+    auto pressures =
+        readPatchPressures(*fieldP, result.state.mesh, constraintPatches(polyMesh), unitWeight, problems);
+    result.scene.liquidBoundary = LiquidBoundary(result.state.mesh, std::move(pressures));
+    const Dictionary* boundaryField = fieldP->findDictionary("boundaryField");
+    for (const PolyPatch& patch : polyMesh.patches) {
+        const Dictionary* own = boundaryField ? boundaryField->findDictionary(patch.name) : nullptr;
+        result.pressureEntries.emplace_back(patch.name,
+                                            own ? printEntries(*own) : "type " + patch.type + ";");
+    }
+    if (const Dictionary* surfaces = fieldP->findDictionary("freeSurfaces")) {
+        std::vector<std::string> names;
+        for (const RigidBody& body : result.state.bodies) {
+            names.push_back(body.name);
+        }
+        result.scene.freeSurfaces = readFreeSurfaces(*surfaces, names, problems);
+        for (const FreeSurface& surface : result.scene.freeSurfaces) {
+            for (const RigidBody& body : result.state.bodies) {
+                if (surface.region != FreeSurface::Region::all && body.name == surface.body &&
+                    body.innerRadius() <= 0) {
+                    problems.add(surfaces->where(),
+                                 "free surface '" + surface.name + "' is inside or outside of body '" +
+                                     body.name + "', which encloses nothing",
+                                 "region all;");
+                }
+            }
+        }
+    }
+}
+
 void readPoints(const std::filesystem::path& start, CaseScene& result, InputProblems& problems)
 {
     if (!std::filesystem::exists(start / "lagrangian/materialPoints")) {
@@ -147,6 +208,7 @@ std::map<std::string, std::vector<double>> keptNumbers(const State& state)
         numbers = {state.bodies[b].tipLevel, state.bodies[b].velocity, reaction.work, reaction.duration};
         numbers.insert(numbers.end(), reaction.verticalImpulse.begin(), reaction.verticalImpulse.end());
         numbers.insert(numbers.end(), reaction.radialImpulse.begin(), reaction.radialImpulse.end());
+        numbers.push_back(reaction.waterImpulse);
     }
     return kept;
 }
@@ -242,11 +304,15 @@ CaseScene readCaseScene(const std::filesystem::path& caseDirectory, const std::f
         }
     }
     readConditions(caseDirectory, start, polyMesh, result, problems);
+    if (scene.controls.phases == 2) {
+        // A time that a run wrote holds the pressures, but not all of the conditions.
+        readLiquid(caseDirectory, restarted ? "0" : start.filename().string(), polyMesh, result, problems);
+    }
 
     if (restarted) {
         for (std::size_t b = 0; b < state.bodies.size(); ++b) {
             const auto found = kept.find("body_" + state.bodies[b].name);
-            if (found == kept.end() || found->second.size() != 4 + 2 * surfaceParts) {
+            if (found == kept.end() || found->second.size() != 5 + 2 * surfaceParts) {
                 problems.add(
                     {start.filename().string() + "/uniform/time", 0},
                     "nothing is kept of body '" + state.bodies[b].name + "'",
@@ -261,6 +327,7 @@ CaseScene readCaseScene(const std::filesystem::path& caseDirectory, const std::f
             std::copy_n(found->second.begin() + 4, surfaceParts, reaction.verticalImpulse.begin());
             std::copy_n(found->second.begin() + 4 + surfaceParts, surfaceParts,
                         reaction.radialImpulse.begin());
+            reaction.waterImpulse = found->second.back();
         }
         if (scene.movingBody >= 0) {
             const RigidBody& body = state.bodies[scene.movingBody];
@@ -274,6 +341,14 @@ CaseScene readCaseScene(const std::filesystem::path& caseDirectory, const std::f
         }
     }
     readPoints(start, result, problems);
+    const SourceLocation points{start.filename().string() + "/lagrangian/materialPoints", 0};
+    if (scene.controls.phases == 2 && !state.points.twoPhase()) {
+        problems.add(points, "the points have no pore pressure, but system/mpmSolution asks for phases 2",
+                     "porePressure { type hydrostatic; level 0; } in system/setMaterialPointsDict");
+    } else if (scene.controls.phases == 1 && state.points.twoPhase()) {
+        problems.add(points, "the points have a pore pressure, but system/mpmSolution has phases 1",
+                     "phases 2, or no porePressure in system/setMaterialPointsDict");
+    }
     return result;
 }
 

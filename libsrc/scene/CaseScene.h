@@ -15,6 +15,8 @@ struct CaseScene
     std::vector<std::string> stateNames; ///< of the points' state variables
     /// boundaryField of 0/U by patch, to be written again with every time.
     std::vector<std::pair<std::string, std::string>> patchEntries;
+    /// The same of 0/p; empty for one phase.
+    std::vector<std::pair<std::string, std::string>> pressureEntries;
     double monitorInterval = 0; ///< [s]
 };
 

@@ -5,7 +5,10 @@ namespace caisson {
 namespace {
 
 constexpr Keyword keywords[] = {
-    {"phases", "integer", "1", "1", "1: the soil alone, drained or dry"},
+    {"phases", "integer", "1", "1 2",
+     "1: the soil alone, drained or dry; 2: soil and pore liquid, each with its velocity (v-w)"},
+    {"drag", "word", "implicit", "implicit lagged",
+     "drag between the phases: implicit at the nodes, or with the last velocities, which limits the step"},
     {"integration", "word", "mixed", "mixed points",
      "mixed: cells filled with soil with their own volume, others at their points; points: all at points"},
     {"volumetricLocking", "word", "automatic", "automatic none meanDilatation nodalAverage",
@@ -43,7 +46,9 @@ SolutionControls readSolutionControls(const Dictionary& mpmSolution, bool triang
 {
     const KeywordReader reader(mpmSolution, keywords, "mpmSolution", problems);
     SolutionControls controls;
-    static_cast<void>(reader.integer("phases")); // one phase: the range says so
+    controls.phases = static_cast<int>(reader.integer("phases"));
+    controls.drag =
+        reader.word("drag") == "lagged" ? SolutionControls::Drag::lagged : SolutionControls::Drag::implicit;
     controls.integration = reader.word("integration") == "points" ? SolutionControls::Integration::points
                                                                   : SolutionControls::Integration::mixed;
     const std::string locking = reader.word("volumetricLocking");

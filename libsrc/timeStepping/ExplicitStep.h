@@ -28,10 +28,12 @@ public:
     [[nodiscard]] CellCounts cellCounts(const State& state) const override;
     [[nodiscard]] std::string description() const override;
     [[nodiscard]] std::vector<std::array<double, 2>> nodalVelocities(const State& state) const override;
+    [[nodiscard]] std::vector<double> nodalPressures(const State& state) const override;
 
 private:
     static constexpr int corners = Shape::corners;
     static constexpr bool axisymmetric = Shape::isAxisymmetric;
+    static constexpr bool twoPhase = phases == 2;
     using Values = shapes::Values<corners>;
     using Dilatation = shapes::MeanDilatation<corners>;
 
@@ -52,16 +54,55 @@ private:
         double spare;
     };
 
+    /// What the liquid in the points of one cell adds to one of its corners.
+    struct LiquidCorner
+    {
+        double mass, momentumR, momentumZ;
+        double forceR, forceZ;                     ///< of the excess pore pressure on the mixture
+        double drag;                               ///< integral of N n^2 viscosity/permeability
+        double volume, poreVolume, pressureVolume; ///< integrals of N, N n and N times excess pore pressure
+    };
+
+    /// Nodal result for the liquid, and what is needed to solve it again where the solid is held.
+    struct LiquidNode
+    {
+        double mass, drag;                   ///< drag: times the step
+        double solidVr, solidVz;             ///< velocity of the solid with its own forces, without drag
+        double liquidVr, liquidVz;           ///< of the liquid, likewise
+        double relativeVr, relativeVz;       ///< of the liquid to the solid, new
+        double oldRelativeVr, oldRelativeVz; ///< at the start of the step
+        double keep;                         ///< share of a relative velocity that drag leaves
+        double porosity;
+        double pressure; ///< mean excess pore pressure round the node [Pa]
+    };
+
     void updateCells(const State& state);
     void classifyCells(State& state);
     void staggerStrain(State& state, double dt);
     void mapToNodes(State& state);
     void mapCellToNodes(State& state, int c);
     void solveNodes(State& state, double dt);
+    void findFreeSurfaces(const State& state);
+    void prepareLiquid(const State& state);
+    void mapLiquidToNodes(const State& state, int c);
+    void mapVoidToNodes(int c);
+    void solveTwoPhaseNode(int i, const Corner& solid, double dt);
+    void solveLiquidAgain(int i, const std::array<double, 2>& direction);
+    void applyLiquidConditions(double time, bool remapped);
     void applyConditions(double time, bool remapped);
     void applyContact(State& state, double dt, bool remapped);
+    void touchTwoPhase(const RigidBody& body, BodyReaction& reaction, const SurfaceNode& contact, double dt,
+                       bool remapped);
     void mapToPoints(State& state, double dt);
     void averageDilatationAtNodes();
+    template <class Velocity>
+    void averageAtNodes(std::vector<double>& cellRate, const Velocity& velocity);
+    /// Of a point now: the grains keep their volume.
+    [[nodiscard]] double porosity(const MaterialPoints& points, int p) const
+    {
+        const int m = points.material[p];
+        return 1 - points.mass[p] * solidShare_[m] / (scene_.materials[m].solidDensity * points.volume[p]);
+    }
     template <bool velocities, bool strains>
     void mapCellToPoints(State& state, double dt, int c);
     void addRemappedMomentum(const State& state, int c);
@@ -69,6 +110,7 @@ private:
     void moveBodiesAndMesh(State& state, double dt);
     void relocate(State& state);
     void scaleInertia(const State& state);
+    [[nodiscard]] double laggedDragStep(const State& state, int c, double size) const;
     [[nodiscard]] double fastestWave(const State& state, int c) const;
 
     const Scene& scene_;
@@ -101,6 +143,20 @@ private:
     std::vector<Corner> cornerSums_;
     std::vector<Node> nodes_;
     std::vector<std::array<double, 2>> traction_;
+    // Two phases only; empty otherwise.
+    std::vector<LiquidCorner> liquidCorners_;
+    std::vector<LiquidNode> liquidNodes_;
+    std::vector<std::array<bool, 2>> solidHeld_;   ///< per node of the liquid's boundary and direction
+    std::vector<double> solidShare_;               ///< per material: of the solid in the saturated mass
+    std::vector<int> freeSurface_;                 ///< per cell: the free surface that its void would be of
+    std::vector<int> voidCells_;                   ///< empty cells with active nodes
+    std::vector<double> surfacePressure_;          ///< per free surface: excess pressure now [Pa]
+    std::vector<std::array<double, 2>> wallArea_;  ///< per node: normals of bodies into the soil times area
+    std::vector<std::array<double, 2>> waterLoad_; ///< per node: of pressures on patches
+    std::vector<double> givenPressure_;            ///< per node: excess pressure of a boundary, or NaN
+    std::vector<double> pressureShape_;            ///< per point: pressure interpolated from the nodes
+    double unitWeight_ = 0;                        ///< of the liquid, along z [N/m3]: negative
+    std::vector<double> cellLiquidRate_;           ///< as cellRate_, for the liquid
     std::vector<double> cellRate_; ///< dilatation rate used by the points of the cell (nodal average)
     std::vector<double> nodeRate_;
     std::array<std::vector<double>, 4> strain_; ///< increments of the step, per point

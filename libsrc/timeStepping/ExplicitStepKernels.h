@@ -36,6 +36,20 @@ inline int firstCorner(const BackgroundMesh& mesh, int cell)
     return first;
 }
 
+/// Fastest wave of soil and liquid without drag between them [m/s]: sqrt of the largest eigenvalue of the
+/// stiffness over the densities of the two phases. Drag slows it down to that of the undrained soil at most.
+inline double fastWave(const Material& material)
+{
+    const double n = material.porosity;
+    const double storage = material.liquidBulkModulus / n;
+    const double liquid = n * material.liquidDensity;
+    const double solid = (1 - n) * material.solidDensity;
+    const double a = storage * n * n / liquid;
+    const double d = (storage * (1 - n) * (1 - n) + material.law->pWaveModulus()) / solid;
+    const double bb = storage * n * (1 - n) * storage * n * (1 - n) / (liquid * solid);
+    return std::sqrt(0.5 * (a + d) + std::sqrt(0.25 * (a - d) * (a - d) + bb));
+}
+
 } // namespace kernels
 
 template <class Shape, int phases>
@@ -67,7 +81,10 @@ ExplicitStep<Shape, phases>::ExplicitStep(const Scene& scene, State& state)
     for (const Material& material : scene.materials) {
         density_.push_back(material.inertialDensity());
         gravityShare_.push_back(material.weighingDensity() / material.inertialDensity());
-        waveSpeed_.push_back(std::sqrt(material.law->pWaveModulus() / material.inertialDensity()));
+        waveSpeed_.push_back(twoPhase ? kernels::fastWave(material)
+                                      : std::sqrt(material.law->pWaveModulus() / material.inertialDensity()));
+        solidShare_.push_back(
+            twoPhase ? (1 - material.porosity) * material.solidDensity / material.inertialDensity() : 1);
     }
     inside_.assign(cells, 0);
     // Surfaces are found where constant/polyMesh has the bodies: the same in a restarted run.
@@ -100,6 +117,31 @@ ExplicitStep<Shape, phases>::ExplicitStep(const Scene& scene, State& state)
     traction_.resize(mesh.nodes());
     cellRate_.assign(cells, 0);
     nodeRate_.assign(mesh.nodes(), 0);
+    if constexpr (twoPhase) {
+        liquidCorners_.resize(cells * corners);
+        liquidNodes_.resize(mesh.nodes());
+        wallArea_.resize(mesh.nodes());
+        givenPressure_.resize(mesh.nodes());
+        unitWeight_ = scene.materials.front().liquidDensity * scene.gravity[1];
+        waterLoad_.resize(mesh.nodes());
+        cellLiquidRate_.assign(cells, 0);
+        pressureShape_.resize(state.points.size());
+        surfacePressure_.resize(scene.freeSurfaces.size());
+        findFreeSurfaces(state);
+    }
+    if constexpr (twoPhase) {
+        for (const LiquidBoundary::Node& liquid : scene.liquidBoundary.nodes()) {
+            std::array<bool, 2> held{};
+            for (const VelocityConditions::Node& solid : scene.conditions.nodes()) {
+                for (int d = 0; solid.node == liquid.node && d < liquid.directions; ++d) {
+                    const double along =
+                        solid.normal[0] * liquid.normal[d][0] + solid.normal[1] * liquid.normal[d][1];
+                    held[d] = held[d] || solid.fixed || std::abs(along) > 0.99;
+                }
+            }
+            solidHeld_.push_back(held);
+        }
+    }
     state.filled.resize(cells, 0);
     state.cellDivergence.resize(cells, 0);
     state.reactions.resize(state.bodies.size());
@@ -172,11 +214,26 @@ void ExplicitStep<Shape, phases>::classifyCells(State& state)
                 activeNodes_.push_back(i);
             }
         }
+        if constexpr (twoPhase) {
+            voidCells_.clear();
+            for (int c = 0; c < cells; ++c) {
+                bool active_ = false;
+                for (int k = 0; k < corners; ++k) {
+                    active_ = active_ || active[cellNodes_[c * corners + k]];
+                }
+                if (active_ && !occupied_[c] && !inside_[c] && freeSurface_[c] >= 0) {
+                    voidCells_.push_back(c);
+                }
+            }
+        }
         // Sums of cells that went empty must not linger.
         for (int c = 0; c < cells; ++c) {
             if (!occupied_[c]) {
                 state.filled[c] = 0;
                 std::fill_n(cornerSums_.begin() + c * corners, corners, Corner{});
+                if constexpr (twoPhase) {
+                    std::fill_n(liquidCorners_.begin() + c * corners, corners, LiquidCorner{});
+                }
             }
         }
     }
@@ -224,6 +281,28 @@ void ExplicitStep<Shape, phases>::scaleInertia(const State& state)
     }
 }
 
+/// Lagged drag and waves together [Mieremet, Stolle, Ceccato & Vuik 2016], with scaled inertia.
+template <class Shape, int phases>
+double ExplicitStep<Shape, phases>::laggedDragStep(const State& state, int c, double size) const
+{
+    const Material& soil = scene_.materials[state.points.material[*pointCells_.begin(c)]];
+    const double n = soil.porosity;
+    const double scale = inertiaScale_[c];
+    const double solid = scale * soil.solidDensity;
+    const double liquid = scale * soil.liquidDensity;
+    const double mixture = (1 - n) * solid + n * liquid;
+    const double bulk = soil.liquidBulkModulus;
+    const double modulus = soil.law->pWaveModulus();
+    // n rho_sat g/((1-n) rho_s k) with k = permeability rho_w g/viscosity
+    const double a =
+        n * mixture * soil.liquidViscosity / ((1 - n) * solid * liquid * soil.intrinsicPermeability);
+    const double b = 4 * (n * mixture * bulk + (1 - 2 * n) * liquid * bulk + n * liquid * modulus) /
+                     (n * (1 - n) * solid * liquid * size * size);
+    const double d = 16 * modulus * bulk / ((1 - n) * solid * liquid * size * size * size * size);
+    const double sum = b + std::sqrt(std::max(0.0, b * b - 4 * d));
+    return (std::sqrt(4 * a * a + 8 * sum) - 2 * a) / sum;
+}
+
 template <class Shape, int phases>
 StableStep ExplicitStep<Shape, phases>::stableStep(const State& state) const
 {
@@ -237,6 +316,9 @@ StableStep ExplicitStep<Shape, phases>::stableStep(const State& state) const
         double step = viscous * size / speed * std::sqrt(scene_.controls.massScaling);
         if (scene_.controls.commonTimeStep > 0) {
             step = std::max(step, scene_.controls.commonTimeStep);
+        }
+        if (twoPhase && scene_.controls.drag == SolutionControls::Drag::lagged) {
+            step = std::min(step, viscous * laggedDragStep(state, c, size));
         }
         if (step < result.step) {
             result = {step, c, speed, size};
@@ -267,9 +349,12 @@ template <class Shape, int phases>
 std::string ExplicitStep<Shape, phases>::description() const
 {
     const SolutionControls& controls = scene_.controls;
-    std::string words = "one-phase, ";
+    std::string words = twoPhase ? "two-phase (v-w), " : "one-phase, ";
     words += axisymmetric ? "axisymmetric" : "plane strain";
     words += corners == 3 ? ", triangles" : ", quadrilaterals";
+    if (twoPhase) {
+        words += controls.drag == SolutionControls::Drag::implicit ? ", implicit drag" : ", lagged drag";
+    }
     words +=
         controls.integration == SolutionControls::Integration::mixed ? ", mixed integration" : ", points";
     words += controls.locking == SolutionControls::Locking::none             ? ""
@@ -362,10 +447,10 @@ void ExplicitStep<Shape, phases>::mapCellToNodes(State& state, int c)
     double forceZ[corners] = {};
     Values values;
     const auto addInertiaAndWeight = [&](int p) {
-        const double m = points.mass[p];
+        const double m = twoPhase ? points.mass[p] * solidShare_[points.material[p]] : points.mass[p];
         const double mr = m * points.vr[p];
         const double mz = m * points.vz[p];
-        const double weight = m * gravityShare_[points.material[p]];
+        const double weight = points.mass[p] * gravityShare_[points.material[p]];
         const double wr = weight * scene_.gravity[0];
         const double wz = weight * scene_.gravity[1];
         for (int k = 0; k < corners; ++k) {
@@ -512,7 +597,8 @@ void ExplicitStep<Shape, phases>::mapCellToNodes(State& state, int c)
     }
 
     const double inertia = inertiaScale_[c] * fullness_[c];
-    const double fullMass = inertiaScale_[c] * density_[points.material[*first]] * moments.volume;
+    const double fullMass = inertiaScale_[c] * density_[points.material[*first]] *
+                            (twoPhase ? solidShare_[points.material[*first]] : 1.0) * moments.volume;
     Corner* const out = &cornerSums_[c * corners];
     for (int k = 0; k < corners; ++k) {
         out[k] = {inertia * mass[k], inertia * momentumR[k], inertia * momentumZ[k], forceR[k],
@@ -526,6 +612,15 @@ void ExplicitStep<Shape, phases>::mapToNodes(State& state)
     for (const int c : activeCells_) {
         mapCellToNodes(state, c);
     }
+    if constexpr (twoPhase) {
+        prepareLiquid(state);
+        for (const int c : activeCells_) {
+            mapLiquidToNodes(state, c);
+        }
+        for (const int c : voidCells_) {
+            mapVoidToNodes(c);
+        }
+    }
     if (scene_.conditions.hasTractions()) {
         std::ranges::fill(traction_, std::array<double, 2>{});
         scene_.conditions.addTractions(state.mesh, state.time, traction_);
@@ -537,6 +632,15 @@ void ExplicitStep<Shape, phases>::solveNodes(State& state, double dt)
 {
     const double damping = scene_.controls.localDamping;
     const bool tractions = scene_.conditions.hasTractions();
+    if constexpr (twoPhase) {
+        std::ranges::fill(givenPressure_, std::numeric_limits<double>::quiet_NaN());
+        scene_.liquidBoundary.setPressures(state.mesh, state.time, unitWeight_, givenPressure_);
+        for (const int c : voidCells_) {
+            for (int k = 0; k < corners; ++k) {
+                givenPressure_[cellNodes_[c * corners + k]] = surfacePressure_[freeSurface_[c]];
+            }
+        }
+    }
     for (const int i : activeNodes_) {
         Corner sum{};
         for (int k = nodeCorners_.start[i]; k < nodeCorners_.start[i + 1]; ++k) {
@@ -553,11 +657,18 @@ void ExplicitStep<Shape, phases>::solveNodes(State& state, double dt)
         looseNode_[i] = surfaceNode_[i] != 0 || sum.mass < kernels::looseShare * sum.fullMass;
         if (sum.mass <= 0) {
             node = Node{};
+            if constexpr (twoPhase) {
+                liquidNodes_[i] = LiquidNode{};
+            }
             continue;
         }
         if (tractions) {
             sum.forceR += traction_[i][0];
             sum.forceZ += traction_[i][1];
+        }
+        if constexpr (twoPhase) {
+            solveTwoPhaseNode(i, sum, dt);
+            continue;
         }
         const double inverse = 1 / sum.mass;
         const double oldR = sum.momentumR * inverse;
@@ -574,8 +685,13 @@ void ExplicitStep<Shape, phases>::solveNodes(State& state, double dt)
         node.placeVr = oldR + 0.5 * node.dvr;
         node.placeVz = oldZ + 0.5 * node.dvz;
     }
-    applyConditions(state.time + dt, false);
-    applyContact(state, dt, false);
+    if constexpr (twoPhase) { // a held direction wins over a body's, in velocity and drag
+        applyContact(state, dt, false);
+        applyConditions(state.time + dt, false);
+    } else {
+        applyConditions(state.time + dt, false);
+        applyContact(state, dt, false);
+    }
 }
 
 template <class Shape, int phases>
@@ -604,6 +720,14 @@ void ExplicitStep<Shape, phases>::applyConditions(double time, bool remapped)
         node.vr += changeR;
         node.vz += changeZ;
         if (!remapped) {
+            if constexpr (twoPhase) {
+                if (condition.fixed) {
+                    solveLiquidAgain(condition.node, {1, 0});
+                    solveLiquidAgain(condition.node, {0, 1});
+                } else {
+                    solveLiquidAgain(condition.node, condition.normal);
+                }
+            }
             node.dvr += changeR;
             node.dvz += changeZ;
             if (condition.fixed) {
@@ -617,6 +741,9 @@ void ExplicitStep<Shape, phases>::applyConditions(double time, bool remapped)
             }
         }
     }
+    if constexpr (twoPhase) {
+        applyLiquidConditions(time, remapped);
+    }
 }
 
 template <class Shape, int phases>
@@ -625,12 +752,16 @@ void ExplicitStep<Shape, phases>::applyContact(State& state, double dt, bool rem
     for (std::size_t b = 0; b < state.bodies.size(); ++b) {
         const RigidBody& body = state.bodies[b];
         BodyReaction& reaction = state.reactions[b];
-        if (body.adhesion > 0) {
+        if (body.adhesion > 0 && !twoPhase) { // of two phases they are up to date already
             updateAreas(surfaces_[b], state.mesh);
         }
         for (const SurfaceNode& contact : surfaces_[b].nodes) {
             Node& node = nodes_[contact.node];
             if (node.mass <= 0) {
+                continue;
+            }
+            if constexpr (twoPhase) {
+                touchTwoPhase(body, reaction, contact, dt, remapped);
                 continue;
             }
             const auto touch = [&](const std::array<double, 2>& n, SurfacePart part, double bodyVz,
@@ -709,7 +840,23 @@ void ExplicitStep<Shape, phases>::mapCellToPoints(State& state, double dt, int c
         pz[k] = node.placeVz;
     }
 
-    double rate = 0; // dilatation rate shared by the points of the cell
+    double wr[corners], wz[corners], relativeR[corners], relativeZ[corners], keep[corners],
+        nodalPressure[corners];
+    if constexpr (twoPhase) {
+        for (int k = 0; k < corners; ++k) {
+            const LiquidNode& node = liquidNodes_[cellNodes_[c * corners + k]];
+            wr[k] = vr[k] + node.relativeVr;
+            wz[k] = vz[k] + node.relativeVz;
+            relativeR[k] = node.relativeVr - node.keep * node.oldRelativeVr;
+            relativeZ[k] = node.relativeVz - node.keep * node.oldRelativeVz;
+            keep[k] = node.keep;
+            nodalPressure[k] = node.pressure;
+        }
+    }
+
+    double rate = 0;       // dilatation rate shared by the points of the cell
+    double liquidRate = 0; // of the liquid's velocity, likewise
+    double liquidGradient[3] = {};
     // Filled cells: mean and slopes of the velocity gradient (rr, zz, hoop, v_r,z, v_z,r) about the points'
     // centre.
     double gradient[3][5] = {};
@@ -719,6 +866,7 @@ void ExplicitStep<Shape, phases>::mapCellToPoints(State& state, double dt, int c
     if constexpr (strains) {
         if (nodalAverage) {
             rate = cellRate_[c];
+            liquidRate = twoPhase ? cellLiquidRate_[c] : 0;
         }
         if (filled) {
             const shapes::Moments<corners> m = Shape::moments(cell);
@@ -731,15 +879,24 @@ void ExplicitStep<Shape, phases>::mapCellToPoints(State& state, double dt, int c
                     g[3] += m.gz[moment][k] * vr[k];
                     g[4] += m.gr[moment][k] * vz[k];
                 }
+                if constexpr (twoPhase) {
+                    for (int k = 0; k < corners; ++k) {
+                        liquidGradient[moment] +=
+                            (m.gr[moment][k] + m.h[moment][k]) * wr[k] + m.gz[moment][k] * wz[k];
+                    }
+                }
             }
             if (!nodalAverage) {
                 rate = gradient[0][0] + gradient[0][1] + gradient[0][2];
+                liquidRate = liquidGradient[0];
             }
             if constexpr (corners == 4) {
                 for (int j = 0; j < 5; ++j) {
                     gradient[1][j] /= m.inertiaXi;
                     gradient[2][j] /= m.inertiaEta;
                 }
+                liquidGradient[1] /= m.inertiaXi;
+                liquidGradient[2] /= m.inertiaEta;
                 double w = 0;
                 for (const int* i = first; i != last; ++i) {
                     const double v = points.volume[*i];
@@ -764,13 +921,22 @@ void ExplicitStep<Shape, phases>::mapCellToPoints(State& state, double dt, int c
                 }
                 rate += points.volume[p] * own;
                 volume += points.volume[p];
+                if constexpr (twoPhase) {
+                    double liquid = 0;
+                    for (int k = 0; k < corners; ++k) {
+                        liquid += (values.dr[k] + values.N[k] * inverseR) * wr[k] + values.dz[k] * wz[k];
+                    }
+                    liquidRate += points.volume[p] * liquid;
+                }
             }
             rate /= volume;
+            liquidRate /= volume;
         }
     }
     const bool sharedRate = meanDilatation || nodalAverage;
 
     double rateSum = 0;
+    double shapeSum = 0, excessSum = 0, volumeSum = 0;
     Values values;
     for (const int* i = first; i != last; ++i) {
         const int p = *i;
@@ -778,6 +944,7 @@ void ExplicitStep<Shape, phases>::mapCellToPoints(State& state, double dt, int c
         Shape::evaluate(cell, r, points.z[p], values);
         if constexpr (strains) {
             double rr = 0, zz = 0, rz = 0, zr = 0, hoop = 0;
+            double ownLiquid = 0;
             if (filled) {
                 double x = 0;
                 double y = 0;
@@ -794,6 +961,7 @@ void ExplicitStep<Shape, phases>::mapCellToPoints(State& state, double dt, int c
                 hoop = at(2);
                 rz = at(3);
                 zr = at(4);
+                ownLiquid = liquidGradient[0] + x * liquidGradient[1] + y * liquidGradient[2];
             } else {
                 for (int k = 0; k < corners; ++k) {
                     rr += values.dr[k] * vr[k];
@@ -803,6 +971,12 @@ void ExplicitStep<Shape, phases>::mapCellToPoints(State& state, double dt, int c
                     hoop += values.N[k] * vr[k];
                 }
                 hoop = axisymmetric ? hoop / std::max(r, kernels::smallestRadius) : 0.0;
+                if constexpr (twoPhase) {
+                    const double inverseR = axisymmetric ? 1 / std::max(r, kernels::smallestRadius) : 0.0;
+                    for (int k = 0; k < corners; ++k) {
+                        ownLiquid += (values.dr[k] + values.N[k] * inverseR) * wr[k] + values.dz[k] * wz[k];
+                    }
+                }
             }
             const double own = rr + zz + hoop;
             const double trace = sharedRate ? rate : own;
@@ -814,6 +988,25 @@ void ExplicitStep<Shape, phases>::mapCellToPoints(State& state, double dt, int c
             strain_[3][p] = dt * (rz + zr);
             spin_[p] = 0.5 * dt * (zr - rz);
             const double e = dt * trace;
+            if constexpr (twoPhase) {
+                // Storage [Jassim, Stolle & Vermeer 2013]: p' = -(Kw/n)((1-n) div v + n div w).
+                const Material& material = scene_.materials[points.material[p]];
+                const double n = porosity(points, p);
+                const double flow = (1 - n) * trace + n * (sharedRate ? liquidRate : ownLiquid);
+                double pressure = points.porePressure[p] - dt * material.liquidBulkModulus / n * flow;
+                if (sharedRate) {
+                    double nodal = 0;
+                    for (int k = 0; k < corners; ++k) {
+                        nodal += values.N[k] * nodalPressure[k];
+                    }
+                    const double height = unitWeight_ * points.z[p];
+                    pressureShape_[p] = nodal + height;
+                    shapeSum += points.volume[p] * nodal;
+                    excessSum += points.volume[p] * (pressure - height);
+                    volumeSum += points.volume[p];
+                }
+                points.porePressure[p] = pressure;
+            }
             points.volume[p] *= 1 + e * (1 + 0.5 * e); // exp(e): the integral of the rate
         }
         if constexpr (velocities) {
@@ -824,6 +1017,18 @@ void ExplicitStep<Shape, phases>::mapCellToPoints(State& state, double dt, int c
                 placeR += values.N[k] * pr[k];
                 placeZ += values.N[k] * pz[k];
             }
+            double differenceR = 0, differenceZ = 0;
+            if constexpr (twoPhase) {
+                // Relative velocities that the nodes do not see are dragged down as theirs are.
+                double kept = 0;
+                for (int k = 0; k < corners; ++k) {
+                    differenceR += values.N[k] * relativeR[k];
+                    differenceZ += values.N[k] * relativeZ[k];
+                    kept += values.N[k] * keep[k];
+                }
+                differenceR += kept * (points.wr[p] - points.vr[p]);
+                differenceZ += kept * (points.wz[p] - points.vz[p]);
+            }
             if (flip < 1) {
                 for (int k = 0; k < corners; ++k) {
                     newR += values.N[k] * vr[k];
@@ -832,6 +1037,10 @@ void ExplicitStep<Shape, phases>::mapCellToPoints(State& state, double dt, int c
             }
             points.vr[p] = flip * (points.vr[p] + changeR) + (1 - flip) * newR;
             points.vz[p] = flip * (points.vz[p] + changeZ) + (1 - flip) * newZ;
+            if constexpr (twoPhase) {
+                points.wr[p] = points.vr[p] + differenceR;
+                points.wz[p] = points.vz[p] + differenceZ;
+            }
             if constexpr (strains) {
                 points.r[p] = r + dt * placeR;
                 points.z[p] += dt * placeZ;
@@ -846,6 +1055,17 @@ void ExplicitStep<Shape, phases>::mapCellToPoints(State& state, double dt, int c
             points.z[p] += dt * placeZ;
         }
     }
+    if constexpr (strains && twoPhase) {
+        // Where the forces know the mean pressure of a cell alone, its points take their differences from the
+        // nodes: left alone they would keep those of their first cells for ever.
+        const double shift = sharedRate ? (excessSum - shapeSum) / volumeSum : 0;
+        for (const int* i = first; i != last; ++i) {
+            const int p = *i;
+            const double least = scene_.materials[points.material[p]].cavitationPressure;
+            const double pressure = sharedRate ? pressureShape_[p] + shift : points.porePressure[p];
+            points.porePressure[p] = std::max(pressure, least);
+        }
+    }
     if constexpr (strains) {
         state.cellDivergence[c] = rateSum / static_cast<double>(last - first);
     }
@@ -858,15 +1078,29 @@ void ExplicitStep<Shape, phases>::addRemappedMomentum(const State& state, int c)
     Corner* const out = &cornerSums_[c * corners];
     for (int k = 0; k < corners; ++k) {
         out[k].momentumR = out[k].momentumZ = 0;
+        if constexpr (twoPhase) {
+            liquidCorners_[c * corners + k].momentumR = liquidCorners_[c * corners + k].momentumZ = 0;
+        }
     }
     Values values;
     for (const int* i = pointCells_.begin(c); i != pointCells_.end(c); ++i) {
         const int p = *i;
         Shape::evaluate(cells_[c], points.r[p], points.z[p], values);
-        const double m = inertiaScale_[c] * fullness_[c] * points.mass[p];
+        const double m = inertiaScale_[c] * fullness_[c] * points.mass[p] *
+                         (twoPhase ? solidShare_[points.material[p]] : 1.0);
         for (int k = 0; k < corners; ++k) {
             out[k].momentumR += values.N[k] * m * points.vr[p];
             out[k].momentumZ += values.N[k] * m * points.vz[p];
+        }
+        if constexpr (twoPhase) {
+            const Material& material = scene_.materials[points.material[p]];
+            const double liquid = inertiaScale_[c] * fullness_[c] * porosity(points, p) *
+                                  material.liquidDensity * points.volume[p];
+            for (int k = 0; k < corners; ++k) {
+                LiquidCorner& corner = liquidCorners_[c * corners + k];
+                corner.momentumR += values.N[k] * liquid * (points.wr[p] - points.vr[p]);
+                corner.momentumZ += values.N[k] * liquid * (points.wz[p] - points.vz[p]);
+            }
         }
     }
 }
@@ -874,14 +1108,28 @@ void ExplicitStep<Shape, phases>::addRemappedMomentum(const State& state, int c)
 template <class Shape, int phases>
 void ExplicitStep<Shape, phases>::averageDilatationAtNodes()
 {
-    // Detournay & Dzik 2006: cell rates to nodes by volume, and back as the mean of a cell's nodes.
+    averageAtNodes(cellRate_, [this](int i) { return std::array{nodes_[i].vr, nodes_[i].vz}; });
+    if constexpr (twoPhase) {
+        averageAtNodes(cellLiquidRate_, [this](int i) {
+            return std::array{nodes_[i].vr + liquidNodes_[i].relativeVr,
+                              nodes_[i].vz + liquidNodes_[i].relativeVz};
+        });
+    }
+}
+
+/// Detournay & Dzik 2006: cell rates of dilatation to nodes by volume, and back as the mean of a cell's
+/// nodes.
+template <class Shape, int phases>
+template <class Velocity>
+void ExplicitStep<Shape, phases>::averageAtNodes(std::vector<double>& cellRate, const Velocity& velocity)
+{
     for (const int c : activeCells_) {
         double rate = 0;
         for (int k = 0; k < corners; ++k) {
-            const Node& node = nodes_[cellNodes_[c * corners + k]];
-            rate += dilatation_[c].br[k] * node.vr + dilatation_[c].bz[k] * node.vz;
+            const auto [r, z] = velocity(cellNodes_[c * corners + k]);
+            rate += dilatation_[c].br[k] * r + dilatation_[c].bz[k] * z;
         }
-        cellRate_[c] = rate;
+        cellRate[c] = rate;
     }
     for (const int i : activeNodes_) {
         double sum = 0;
@@ -889,7 +1137,7 @@ void ExplicitStep<Shape, phases>::averageDilatationAtNodes()
         for (int k = nodeCorners_.start[i]; k < nodeCorners_.start[i + 1]; ++k) {
             const int c = nodeCorners_.item[k] / corners;
             if (occupied_[c]) {
-                sum += cellRate_[c] * dilatation_[c].volume;
+                sum += cellRate[c] * dilatation_[c].volume;
                 volume += dilatation_[c].volume;
             }
         }
@@ -900,7 +1148,7 @@ void ExplicitStep<Shape, phases>::averageDilatationAtNodes()
         for (int k = 0; k < corners; ++k) {
             rate += nodeRate_[cellNodes_[c * corners + k]];
         }
-        cellRate_[c] = rate / corners;
+        cellRate[c] = rate / corners;
     }
 }
 
@@ -945,9 +1193,24 @@ void ExplicitStep<Shape, phases>::mapToPoints(State& state, double dt)
             }
             nodes_[i].vr = r / nodes_[i].mass;
             nodes_[i].vz = z / nodes_[i].mass;
+            if constexpr (twoPhase) {
+                LiquidNode& liquid = liquidNodes_[i];
+                r = z = 0;
+                for (int k = nodeCorners_.start[i]; k < nodeCorners_.start[i + 1]; ++k) {
+                    r += liquidCorners_[nodeCorners_.item[k]].momentumR;
+                    z += liquidCorners_[nodeCorners_.item[k]].momentumZ;
+                }
+                liquid.relativeVr = r / liquid.mass;
+                liquid.relativeVz = z / liquid.mass;
+            }
         }
-        applyConditions(state.time + dt, true);
-        applyContact(state, dt, true);
+        if constexpr (twoPhase) {
+            applyContact(state, dt, true);
+            applyConditions(state.time + dt, true);
+        } else {
+            applyConditions(state.time + dt, true);
+            applyContact(state, dt, true);
+        }
     }
     if (nodalAverage) {
         averageDilatationAtNodes();
@@ -1076,6 +1339,34 @@ std::vector<std::array<double, 2>> ExplicitStep<Shape, phases>::nodalVelocities(
         }
     }
     return momentum;
+}
+
+template <class Shape, int phases>
+std::vector<double> ExplicitStep<Shape, phases>::nodalPressures(const State& state) const
+{
+    const MaterialPoints& points = state.points;
+    std::vector<double> pressure(state.mesh.nodes(), 0);
+    if (!points.twoPhase()) {
+        return pressure;
+    }
+    std::vector<double> volume(state.mesh.nodes(), 0);
+    Values values;
+    for (std::size_t p = 0; p < points.size(); ++p) {
+        const int c = points.cell[p];
+        Shape::evaluate(cells_[c], points.r[p], points.z[p], values);
+        for (int k = 0; k < corners; ++k) {
+            const int i = cellNodes_[c * corners + k];
+            volume[i] += values.N[k] * points.volume[p];
+            pressure[i] +=
+                values.N[k] * points.volume[p] * (points.porePressure[p] - unitWeight_ * points.z[p]);
+        }
+    }
+    for (std::size_t i = 0; i < volume.size(); ++i) {
+        if (volume[i] > 0) {
+            pressure[i] = pressure[i] / volume[i] + unitWeight_ * state.mesh.z[i];
+        }
+    }
+    return pressure;
 }
 
 } // namespace caisson

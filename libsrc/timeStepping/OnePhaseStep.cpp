@@ -1,4 +1,4 @@
-#include "timeStepping/ExplicitStepKernels.h"
+#include "timeStepping/LiquidKernels.h"
 
 namespace caisson {
 

@@ -1,6 +1,8 @@
 #pragma once
 
 #include "bodies/BodySurface.h"
+#include "boundary/FreeSurface.h"
+#include "boundary/LiquidBoundary.h"
 #include "boundary/VelocityConditions.h"
 #include "constitutive/Material.h"
 #include "materialPoints/MaterialPoints.h"
@@ -24,6 +26,11 @@ struct SolutionControls
     /// 1995].
     enum class Remap { none, loose, all };
 
+    /// Drag between liquid and solid: implicit at the nodes, or with the velocities of the step before.
+    enum class Drag { implicit, lagged };
+
+    int phases = 1; ///< 1: soil, drained or dry; 2: soil and liquid with velocities of their own (v-w)
+    Drag drag = Drag::implicit;
     Integration integration = Integration::mixed;
     Locking locking = Locking::meanDilatation;
     Remap remap = Remap::loose;
@@ -45,26 +52,30 @@ struct Scene
     std::vector<Material> materials;
     std::array<double, 2> gravity{0, 0}; ///< [m/s2]
     VelocityConditions conditions;
+    LiquidBoundary liquidBoundary;         ///< two phases: patches
+    std::vector<FreeSurface> freeSurfaces; ///< two phases: surfaces of the soil under water or air
     MeshMotion motion;
     int movingBody = -1;            ///< index of the body that the mesh follows, or -1
     std::vector<double> referenceZ; ///< node heights of constant/polyMesh [m]
     SolutionControls controls;
 };
 
-/// What the soil did to a body: impulses on the body per part of its surface since they were last collected
-/// [N s/rad or N s/m], upward and away from the axis positive.
+/// What the soil did to a body: impulses of effective stress on the body per part of its surface since they
+/// were last collected [N s/rad or N s/m], upward and away from the axis positive.
 struct BodyReaction
 {
     std::array<double, surfaceParts> verticalImpulse{};
     std::array<double, surfaceParts> radialImpulse{};
-    double duration = 0; ///< of the collection [s]
-    double work = 0;     ///< done by the body on the soil since the start [J/rad or J/m]
+    double waterImpulse = 0; ///< of the excess pore pressure, vertical; not in those above
+    double duration = 0;     ///< of the collection [s]
+    double work = 0;         ///< done by the body on the soil since the start [J/rad or J/m]
 
     /// Forgets what was collected; the work stays.
     void restartCollection()
     {
         verticalImpulse = {};
         radialImpulse = {};
+        waterImpulse = 0;
         duration = 0;
     }
 };

@@ -41,6 +41,9 @@ std::unique_ptr<TimeStep> makeForMesh(const Scene& scene, State& state)
 std::unique_ptr<TimeStep> makeTimeStep(const Scene& scene, State& state)
 {
     const bool axisymmetric = state.mesh.geometry == Geometry::axisymmetric;
+    if (scene.controls.phases == 2) {
+        return axisymmetric ? makeForMesh<2, true>(scene, state) : makeForMesh<2, false>(scene, state);
+    }
     return axisymmetric ? makeForMesh<1, true>(scene, state) : makeForMesh<1, false>(scene, state);
 }
 

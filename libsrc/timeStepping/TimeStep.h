@@ -46,6 +46,9 @@ public:
     [[nodiscard]] virtual std::string description() const = 0; ///< of the kernel chosen, for the log
     /// Velocity of the soil at the nodes of the mesh [m/s], mapped from the points; for output.
     [[nodiscard]] virtual std::vector<std::array<double, 2>> nodalVelocities(const State& state) const = 0;
+    /// Pore pressure at the nodes [Pa], the mean of the points round each; zero where there are none. Two
+    /// phases only.
+    [[nodiscard]] virtual std::vector<double> nodalPressures(const State& state) const = 0;
 };
 
 /// Chooses the compiled kernel for a scene (geometry, kind of cells) and prepares the state.

@@ -22,6 +22,15 @@ void Simulation::setConditions(const std::string& boundaryField)
     problems.throwIfAny("test conditions");
 }
 
+void Simulation::setPressures(const std::string& boundaryField)
+{
+    InputProblems problems;
+    const Dictionary parsed = parseDictionary("boundaryField { " + boundaryField + " }", "0/p");
+    scene.liquidBoundary =
+        LiquidBoundary(state.mesh, readPatchPressures(parsed, state.mesh, {}, 9810, problems));
+    problems.throwIfAny("test pressures");
+}
+
 void Simulation::fill(int material, int n, int m, const std::function<bool(double, double)>& wanted)
 {
     const BackgroundMesh& mesh = state.mesh;

@@ -18,6 +18,8 @@ struct Simulation
     int addMaterial(const std::string& name, const std::string& dictionary);
     /// Conditions per patch from the text of a boundaryField, e.g. "left { type slip; }".
     void setConditions(const std::string& boundaryField);
+    /// Conditions on the pore liquid per patch, likewise.
+    void setPressures(const std::string& boundaryField);
     /// Fills every cell for which `wanted(r, z)` of its centre holds with n x m points (quadrilaterals) or n
     /// points (triangles: 1 or 3), volumes exact.
     void fill(int material, int n, int m, const std::function<bool(double, double)>& wanted = {});

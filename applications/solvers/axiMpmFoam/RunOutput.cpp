@@ -128,14 +128,13 @@ RunOutput::RunOutput(RunTime& runTime, const CaseScene& caseScene, Log& log)
     const std::string force = axisymmetric ? "N" : "N/m";
     for (const RigidBody& body : state.bodies) {
         SurfaceHeave heave(state, body);
-        BodyOutput output{Monitor(runTime.caseDirectory(), body.name, runTime.startName(), body.name,
-                                  {{"penetration", "m"},
-                                   {"velocity", "m/s"},
-                                   {"totalForce", force},
-                                   {"tipForce", force},
-                                   {"innerForce", force},
-                                   {"outerForce", force},
-                                   {"lidForce", force}},
+        std::vector<MonitorColumn> columns{{"penetration", "m"}, {"velocity", "m/s"},   {"totalForce", force},
+                                           {"tipForce", force},  {"innerForce", force}, {"outerForce", force},
+                                           {"lidForce", force}};
+        if (state.points.twoPhase()) {
+            columns.push_back({"waterForce", force});
+        }
+        BodyOutput output{Monitor(runTime.caseDirectory(), body.name, runTime.startName(), body.name, columns,
                                   caseScene.monitorInterval),
                           nullptr,
                           std::move(heave),
@@ -186,8 +185,11 @@ void RunOutput::recordBodies(State& state)
         report.penetration = body.penetration();
         report.normalisedPenetration = body.penetration() / body.referenceLength;
         report.velocity = body.velocity;
-        const double values[] = {report.penetration, report.velocity,   report.totalForce, report.tipForce,
-                                 report.innerForce,  report.outerForce, report.lidForce};
+        std::vector<double> values{report.penetration, report.velocity,   report.totalForce, report.tipForce,
+                                   report.innerForce,  report.outerForce, report.lidForce};
+        if (state.points.twoPhase()) {
+            values.push_back(share * reaction.waterImpulse);
+        }
         output.monitor.record(time, values);
         reaction.restartCollection();
         if (output.plugMonitor && output.plugMonitor->due(time)) {
@@ -290,6 +292,17 @@ void RunOutput::write(const State& state, const TimeStep& step)
             }
         }
         writeField(folder, velocity, true, "[0 1 -1 0 0 0 0]", case_.patchEntries, style);
+        if (state.points.twoPhase()) {
+            NamedField pressure{"p", FieldKind::scalar,
+                                std::vector<double>(static_cast<std::size_t>(mesh.polyMeshPoints), 0.0)};
+            const auto nodalPressure = step.nodalPressures(state);
+            for (int i = 0; i < mesh.nodes(); ++i) {
+                for (const int point : mesh.nodePoints[i]) {
+                    pressure.values[point] = nodalPressure[i];
+                }
+            }
+            writeField(folder, pressure, true, "[1 -1 -2 0 0 0 0]", case_.pressureEntries, style);
+        }
 
         std::vector<std::pair<std::string, std::string>> calculated;
         for (const auto& [patch, entries] : case_.patchEntries) {

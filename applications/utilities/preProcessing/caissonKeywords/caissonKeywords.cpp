@@ -3,6 +3,8 @@
 // Usage: caissonKeywords [-check <file>]
 
 #include "../setMaterialPoints/SeedInput.h"
+#include "boundary/FreeSurface.h"
+#include "boundary/LiquidConditions.h"
 #include "case/FileIO.h"
 #include "installation/InstallationInput.h"
 #include "mesh/MeshMotion.h"
@@ -77,7 +79,13 @@ std::string allTables()
             tables("every region", "region of type", seedRegionTypes(), seedRegionKeywords) +
             table("a refinement of a region", seedRefinementKeywords()) +
             table("velocity of a region", seedVelocityKeywords()) +
-            tables("initialState", "initialState of type", initialStateTypes(), initialStateKeywords);
+            tables("initialState", "initialState of type", initialStateTypes(), initialStateKeywords) +
+            tables("porePressure", "porePressure of type", initialPorePressureTypes(),
+                   initialPorePressureKeywords);
+    text += "## 0/p\n\nOne sub-dictionary per patch in `boundaryField`, one per surface of the soil in "
+            "`freeSurfaces`.\n\n" +
+            tables("every patch", "patch of type", patchPressureTypes(), patchPressureKeywords) +
+            table("a free surface", freeSurfaceKeywords());
     text += "## constant/materialProperties\n\nOne sub-dictionary per material.\n\n" +
             tables("every material", "material with law", constitutiveLawTypes(), materialKeywords);
     text += "## constant/bodies\n\nOne sub-dictionary per body.\n\n" +

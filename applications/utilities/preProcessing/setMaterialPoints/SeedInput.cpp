@@ -82,6 +82,7 @@ std::span<const Keyword> setMaterialPointsKeywords()
         {"regions", "list", "", "",
          "what is filled: ( { type box; ... } ... ); where they overlap the later wins"},
         {"initialState", "dictionary", "", "", "stress of the points at the start"},
+        {"porePressure", "dictionary", "-", "", "pore pressure of two-phase soil at the start"},
     };
     return table;
 }
@@ -120,6 +121,11 @@ SeedInput readSeedInput(const fs::path& caseDirectory, const fs::path& dictionar
         }
         if (const Dictionary* state = reader.dictionary("initialState")) {
             input.initialState = readInitialState(*state, problems);
+        }
+        if (reader.has("porePressure")) {
+            if (const Dictionary* pore = reader.dictionary("porePressure")) {
+                input.porePressure = readInitialPorePressure(*pore, problems);
+            }
         }
     });
     problems.throwIfAny("case " + caseDirectory.string());

@@ -5,6 +5,7 @@
 #include "materialPoints/InitialState.h"
 
 #include <filesystem>
+#include <optional>
 
 namespace caisson {
 
@@ -19,6 +20,7 @@ struct SeedInput
     std::array<double, 2> gravity{}; ///< r, z [m/s2]
     std::vector<SeedRegion> regions;
     InitialState initialState;
+    std::optional<InitialPorePressure> porePressure; ///< of two-phase soil
 };
 
 std::span<const Keyword> setMaterialPointsKeywords();

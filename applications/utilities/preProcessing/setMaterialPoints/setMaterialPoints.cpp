@@ -71,6 +71,10 @@ void printStress(const MaterialPoints& points)
         std::cout << text("%s %s %.6g to %.6g", k == 0 ? "" : ",", names[k], low, high);
     }
     std::cout << '\n';
+    if (points.twoPhase()) {
+        const auto [low, high] = std::ranges::minmax(points.porePressure);
+        std::cout << text("Initial pore pressure [Pa]: %.6g to %.6g\n", low, high);
+    }
 }
 
 void run(const fs::path& caseDirectory, const fs::path& dictionaryFile, bool dryRun)
@@ -87,6 +91,9 @@ void run(const fs::path& caseDirectory, const fs::path& dictionaryFile, bool dry
     };
     SeededPoints seeded = seedPoints(mesh, input.regions, input.materials, insideBody, problems);
     setInitialStress(seeded, input.materials, input.initialState, input.gravity, problems);
+    if (input.porePressure) {
+        setInitialPorePressure(seeded, input.materials, *input.porePressure, input.gravity);
+    }
     problems.throwIfAny("case " + caseDirectory.string());
     printRegions(input, seeded);
     printStress(seeded.points);

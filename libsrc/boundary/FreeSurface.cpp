@@ -1,0 +1,83 @@
+#include "boundary/FreeSurface.h"
+
+#include <algorithm>
+
+namespace caisson {
+
+namespace {
+
+constexpr Keyword keywords[] = {
+    {"region", "word", "all", "all inside outside",
+     "the soil surfaces meant: all, those inside the walls of the body, or those outside"},
+    {"body", "word", "-", "", "name of the body, for region inside or outside and variable penetration"},
+    {"level", "m", "0", "", "height at which the hydrostatic part rho_w g (level - z) is zero"},
+    {"pressure", "Function1", "-", "", "added to the hydrostatic part [Pa], zero if left out"},
+    {"suction", "Function1", "-", "", "taken from it [Pa], zero if left out; not together with pressure"},
+    {"variable", "word", "time", "time penetration",
+     "what pressure or suction is a function of [s or m]; penetration is that of the body"},
+};
+
+/// Minus another function.
+class Negative final : public Function1
+{
+public:
+    explicit Negative(std::unique_ptr<Function1> function) : function_(std::move(function)) {}
+    [[nodiscard]] double value(double x) const override { return -function_->value(x); }
+    [[nodiscard]] double end() const override { return function_->end(); }
+
+private:
+    std::unique_ptr<Function1> function_;
+};
+
+} // namespace
+
+std::span<const Keyword> freeSurfaceKeywords() { return keywords; }
+
+std::vector<FreeSurface> readFreeSurfaces(const Dictionary& freeSurfaces,
+                                          const std::vector<std::string>& bodies, InputProblems& problems)
+{
+    std::vector<FreeSurface> surfaces;
+    for (const Entry& entry : freeSurfaces.entries()) {
+        if (!entry.dictionary) {
+            problems.add(entry.where, "'" + entry.keyword + "' of freeSurfaces is no dictionary",
+                         "plug { region inside; body caisson; suction 10e3; }");
+            continue;
+        }
+        const KeywordReader reader(*entry.dictionary, keywords, "free surface '" + entry.keyword + "'",
+                                   problems);
+        FreeSurface surface;
+        surface.name = entry.keyword;
+        const std::string region = reader.word("region");
+        surface.region = region == "inside"    ? FreeSurface::Region::inside
+                         : region == "outside" ? FreeSurface::Region::outside
+                                               : FreeSurface::Region::all;
+        surface.level = reader.number("level");
+        surface.variable = reader.word("variable") == "penetration" ? FreeSurface::Variable::penetration
+                                                                    : FreeSurface::Variable::time;
+        if (reader.has("body")) {
+            surface.body = reader.word("body");
+            if (std::ranges::find(bodies, surface.body) == bodies.end()) {
+                reader.problem("body", "there is no body '" + surface.body + "'",
+                               suggestion(surface.body, bodies, "bodies"));
+            }
+        } else if (surface.region != FreeSurface::Region::all ||
+                   surface.variable == FreeSurface::Variable::penetration) {
+            reader.problem("body", "free surface '" + surface.name + "' needs 'body'",
+                           "region inside and outside, and variable penetration, are those of a body");
+        }
+        if (reader.has("pressure") && reader.has("suction")) {
+            reader.problem("suction", "free surface '" + surface.name + "' has a pressure and a suction",
+                           "suction is a negative pressure: keep one of them");
+        }
+        if (reader.has("pressure")) {
+            surface.pressure = readFunction1(*entry.dictionary, "pressure", problems);
+        } else if (reader.has("suction")) {
+            surface.pressure =
+                std::make_shared<Negative>(readFunction1(*entry.dictionary, "suction", problems));
+        }
+        surfaces.push_back(std::move(surface));
+    }
+    return surfaces;
+}
+
+} // namespace caisson

@@ -1,0 +1,36 @@
+#pragma once
+
+#include "function1/Function1.h"
+
+#include <string>
+#include <vector>
+
+namespace caisson {
+
+/// Water pressure on the free surfaces of two-phase soil: the void above the soil, in empty and partly filled
+/// cells, holds water of the pressure rho_w g (level - z) + pressure. It loads the soil (both phases) there
+/// with exactly the integral that the cells use for the pore pressure, so that soil whose pore pressure is
+/// that of the void feels nothing, wherever its points are.
+struct FreeSurface
+{
+    /// Which voids: all, those inside a body (the plug of a caisson) or outside it.
+    enum class Region { all, inside, outside };
+    enum class Variable { time, penetration };
+
+    std::string name;
+    Region region = Region::all;
+    std::string body;                          ///< for inside and outside
+    double level = 0;                          ///< where the hydrostatic part is zero [m]
+    std::shared_ptr<const Function1> pressure; ///< added to it [Pa]; suction is negative
+    Variable variable = Variable::time;        ///< of `pressure` [s], or penetration of `body` [m]
+};
+
+/// Reads `freeSurfaces { plug { region inside; body caisson; ... } ... }` of 0/p.
+/// @param bodies  names of the bodies of the case
+std::vector<FreeSurface> readFreeSurfaces(const Dictionary& freeSurfaces,
+                                          const std::vector<std::string>& bodies, InputProblems& problems);
+
+/// Keys of one free surface.
+std::span<const Keyword> freeSurfaceKeywords();
+
+} // namespace caisson

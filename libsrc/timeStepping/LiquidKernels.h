@@ -1,0 +1,424 @@
+#pragma once
+
+#include "timeStepping/ExplicitStepKernels.h"
+
+/// The liquid of two-phase soil (v-w formulation, one material point for both phases) [Jassim, Stolle &
+/// Vermeer 2013; van Esch, Stolle & Jassim 2011]. Per volume of mixture, with p the pore pressure less its
+/// hydrostatic part rho_w g_z z, compression positive:
+///   liquid    n rho_w dw/dt = -n grad p - Q (w - v),                           Q = n^2
+///   viscosity/permeability solid     (1-n) rho_s dv/dt = div sigma' - (1-n) grad p + (1-n)(rho_s - rho_w) g
+///   + Q (w - v) storage   dp/dt = -(Kw/n) ((1-n) div v + n div w)
+/// The porosity stands outside the gradient: of a node for the forces.
+namespace caisson {
+
+template <class Shape, int phases>
+void ExplicitStep<Shape, phases>::findFreeSurfaces(const State& state)
+{
+    freeSurface_.assign(state.mesh.cells(), -1);
+    for (int c = 0; c < state.mesh.cells(); ++c) {
+        double centre = 0;
+        for (int k = 0; k < corners; ++k) {
+            centre += state.mesh.r[cellNodes_[c * corners + k]] / corners;
+        }
+        for (int s = 0; s < static_cast<int>(scene_.freeSurfaces.size()) && freeSurface_[c] < 0; ++s) {
+            const FreeSurface& surface = scene_.freeSurfaces[s];
+            bool within = surface.region == FreeSurface::Region::all;
+            for (const RigidBody& body : state.bodies) {
+                if (!within && body.name == surface.body) {
+                    const bool inside = std::abs(centre) < body.innerRadius();
+                    within = inside == (surface.region == FreeSurface::Region::inside);
+                }
+            }
+            freeSurface_[c] = within ? s : -1;
+        }
+    }
+}
+
+template <class Shape, int phases>
+void ExplicitStep<Shape, phases>::prepareLiquid(const State& state)
+{
+    for (std::size_t s = 0; s < surfacePressure_.size(); ++s) {
+        const FreeSurface& surface = scene_.freeSurfaces[s];
+        double pressure = -unitWeight_ * surface.level;
+        if (surface.pressure) {
+            double x = state.time;
+            for (const RigidBody& body : state.bodies) {
+                if (surface.variable == FreeSurface::Variable::penetration && body.name == surface.body) {
+                    x = body.penetration();
+                }
+            }
+            pressure += surface.pressure->value(x);
+        }
+        surfacePressure_[s] = pressure;
+    }
+    for (BodySurface& surface : surfaces_) {
+        updateAreas(surface, state.mesh);
+        for (const SurfaceNode& contact : surface.nodes) {
+            std::array<double, 2>& area = wallArea_[contact.node];
+            area = {};
+            for (int f = 0; f < contact.faces; ++f) {
+                area[0] += contact.area[f] * contact.normal[f][0];
+                area[1] += contact.area[f] * contact.normal[f][1];
+            }
+        }
+    }
+    if (scene_.liquidBoundary.hasPressures()) {
+        std::ranges::fill(waterLoad_, std::array<double, 2>{});
+        scene_.liquidBoundary.addPressures(state.mesh, state.time, unitWeight_, waterLoad_);
+    }
+}
+
+template <class Shape, int phases>
+void ExplicitStep<Shape, phases>::mapLiquidToNodes(const State& state, int c)
+{
+    const MaterialPoints& points = state.points;
+    const typename Shape::Cell& cell = cells_[c];
+    const bool meanDilatation = scene_.controls.locking == SolutionControls::Locking::meanDilatation;
+    // Cells away from a surface are full of liquid, whatever their points hold.
+    const bool full = scene_.controls.integration == SolutionControls::Integration::mixed && !bySurface_[c];
+
+    LiquidCorner sum[corners] = {};
+    double volume = 0, pressureVolume = 0;
+    double br[corners] = {};
+    double bz[corners] = {};
+    double wx = 0, wy = 0, wxx = 0, wyy = 0, wxy = 0, px = 0, py = 0;
+    Values values;
+    for (const int* i = pointCells_.begin(c); i != pointCells_.end(c); ++i) {
+        const int p = *i;
+        Shape::evaluate(cell, points.r[p], points.z[p], values);
+        const Material& material = scene_.materials[points.material[p]];
+        const double n = porosity(points, p);
+        const double v = points.volume[p];
+        const double mass = n * material.liquidDensity * v;
+        const double drag = n * n * material.liquidViscosity / material.permeability(n) * v;
+        const double pressure = points.porePressure[p] - unitWeight_ * points.z[p];
+        for (int k = 0; k < corners; ++k) {
+            const double N = values.N[k];
+            sum[k].mass += N * mass;
+            sum[k].momentumR += N * mass * points.wr[p];
+            sum[k].momentumZ += N * mass * points.wz[p];
+            sum[k].drag += N * drag;
+            sum[k].volume += N * v;
+            sum[k].poreVolume += N * n * v;
+        }
+        volume += v;
+        pressureVolume += v * pressure;
+        if (full) {
+            if (corners == 4 && !meanDilatation) {
+                const auto [x, y] = Shape::local(cell, points.r[p], points.z[p]);
+                wx += v * x;
+                wy += v * y;
+                wxx += v * x * x;
+                wyy += v * y * y;
+                wxy += v * x * y;
+                px += v * pressure * x;
+                py += v * pressure * y;
+            }
+            continue;
+        }
+        const double inverseR = axisymmetric ? 1 / std::max(points.r[p], kernels::smallestRadius) : 0;
+        for (int k = 0; k < corners; ++k) {
+            const double r = v * (values.dr[k] + values.N[k] * inverseR);
+            const double z = v * values.dz[k];
+            br[k] += r;
+            bz[k] += z;
+            if (!meanDilatation) {
+                sum[k].forceR += pressure * r;
+                sum[k].forceZ += pressure * z;
+            }
+            sum[k].pressureVolume += values.N[k] * v * pressure;
+        }
+    }
+    const double mean = pressureVolume / volume;
+    if (full) {
+        const shapes::Moments<corners> m = Shape::moments(cell);
+        for (int k = 0; k < corners; ++k) {
+            sum[k].forceR = m.volume * mean * (m.gr[0][k] + m.h[0][k]);
+            sum[k].forceZ = m.volume * mean * m.gz[0][k];
+            sum[k].pressureVolume = m.volume * mean * m.n[k];
+        }
+        if constexpr (corners == 4) {
+            if (!meanDilatation) { // slopes as of the stress (mapCellToNodes)
+                constexpr double ridge = 0.02;
+                const double x = wx / volume;
+                const double y = wy / volume;
+                const double xx = wxx / volume - x * x;
+                const double yy = wyy / volume - y * y;
+                const double xy = wxy / volume - x * y;
+                const double determinant = (xx + ridge) * (yy + ridge) - xy * xy;
+                const double cx = px / volume - x * mean;
+                const double cy = py / volume - y * mean;
+                const double slope[3] = {0, (cx * (yy + ridge) - cy * xy) / determinant,
+                                         (cy * (xx + ridge) - cx * xy) / determinant};
+                for (int j = 1; j < 3; ++j) {
+                    for (int k = 0; k < corners; ++k) {
+                        sum[k].forceR += m.volume * slope[j] * (m.gr[j][k] + m.h[j][k]);
+                        sum[k].forceZ += m.volume * slope[j] * m.gz[j][k];
+                    }
+                }
+            }
+        }
+        for (int k = 0; k < corners; ++k) {
+            // The force takes the whole cell, so mean pressure and porosity of a node do, too.
+            sum[k].poreVolume *= m.volume * m.n[k] / sum[k].volume;
+            sum[k].volume = m.volume * m.n[k];
+        }
+    } else {
+        const double beyond = freeSurface_[c] >= 0 && bySurface_[c] ? surfacePressure_[freeSurface_[c]] : 0;
+        for (int k = 0; k < corners; ++k) {
+            if (meanDilatation) {
+                sum[k].forceR += mean * br[k];
+                sum[k].forceZ += mean * bz[k];
+            }
+            if (beyond != 0) { // the rest of the cell holds the water of the free surface
+                sum[k].forceR += beyond * (dilatation_[c].volume * dilatation_[c].br[k] - br[k]);
+                sum[k].forceZ += beyond * (dilatation_[c].volume * dilatation_[c].bz[k] - bz[k]);
+            }
+        }
+    }
+    LiquidCorner* const out = &liquidCorners_[c * corners];
+    for (int k = 0; k < corners; ++k) {
+        out[k] = sum[k];
+        const double inertia = inertiaScale_[c] * fullness_[c];
+        out[k].mass *= inertia;
+        out[k].momentumR *= inertia;
+        out[k].momentumZ *= inertia;
+        out[k].drag *= fullness_[c];
+    }
+}
+
+template <class Shape, int phases>
+void ExplicitStep<Shape, phases>::mapVoidToNodes(int c)
+{
+    const double pressure = surfacePressure_[freeSurface_[c]];
+    for (int k = 0; k < corners; ++k) {
+        LiquidCorner& corner = liquidCorners_[c * corners + k];
+        corner.forceR = pressure * dilatation_[c].volume * dilatation_[c].br[k];
+        corner.forceZ = pressure * dilatation_[c].volume * dilatation_[c].bz[k];
+    }
+}
+
+template <class Shape, int phases>
+void ExplicitStep<Shape, phases>::solveTwoPhaseNode(int i, const Corner& solid, double dt)
+{
+    LiquidCorner sum{};
+    for (int k = nodeCorners_.start[i]; k < nodeCorners_.start[i + 1]; ++k) {
+        const LiquidCorner& corner = liquidCorners_[nodeCorners_.item[k]];
+        sum.mass += corner.mass;
+        sum.momentumR += corner.momentumR;
+        sum.momentumZ += corner.momentumZ;
+        sum.forceR += corner.forceR;
+        sum.forceZ += corner.forceZ;
+        sum.drag += corner.drag;
+        sum.volume += corner.volume;
+        sum.poreVolume += corner.poreVolume;
+        sum.pressureVolume += corner.pressureVolume;
+    }
+    Node& node = nodes_[i];
+    LiquidNode& liquid = liquidNodes_[i];
+    const double n = sum.poreVolume / sum.volume;
+    liquid.mass = sum.mass;
+    liquid.porosity = n;
+    liquid.pressure = std::isnan(givenPressure_[i]) ? sum.pressureVolume / sum.volume : givenPressure_[i];
+    // The wall of a body bears the pressure at its face.
+    const double pressureR = sum.forceR + liquid.pressure * wallArea_[i][0] + waterLoad_[i][0];
+    const double pressureZ = sum.forceZ + liquid.pressure * wallArea_[i][1] + waterLoad_[i][1];
+    const double oldR = solid.momentumR / solid.mass;
+    const double oldZ = solid.momentumZ / solid.mass;
+    const double oldLiquidR = sum.momentumR / sum.mass;
+    const double oldLiquidZ = sum.momentumZ / sum.mass;
+    liquid.oldRelativeVr = oldLiquidR - oldR;
+    liquid.oldRelativeVz = oldLiquidZ - oldZ;
+    double forceR = solid.forceR + (1 - n) * pressureR;
+    double forceZ = solid.forceZ + (1 - n) * pressureZ;
+    const double damping = scene_.controls.localDamping;
+    if (damping > 0 && !contactNode_[i]) {
+        // Cundall 1987, of the mixture: drag is internal to it, so that a steady flow is not damped.
+        forceR -= std::copysign(damping * std::abs(forceR + n * pressureR), oldR);
+        forceZ -= std::copysign(damping * std::abs(forceZ + n * pressureZ), oldZ);
+    }
+    double liquidForceR = n * pressureR;
+    double liquidForceZ = n * pressureZ;
+    liquid.drag = dt * sum.drag;
+    if (scene_.controls.drag == SolutionControls::Drag::lagged) {
+        forceR += sum.drag * liquid.oldRelativeVr;
+        forceZ += sum.drag * liquid.oldRelativeVz;
+        liquidForceR -= sum.drag * liquid.oldRelativeVr;
+        liquidForceZ -= sum.drag * liquid.oldRelativeVz;
+        liquid.drag = 0;
+    }
+    liquid.solidVr = oldR + dt * forceR / solid.mass;
+    liquid.solidVz = oldZ + dt * forceZ / solid.mass;
+    liquid.liquidVr = oldLiquidR + dt * liquidForceR / sum.mass;
+    liquid.liquidVz = oldLiquidZ + dt * liquidForceZ / sum.mass;
+    // Implicit drag: total momentum as without it, relative velocity reduced. Exact in both limits.
+    const double explicitKeep = scene_.controls.drag == SolutionControls::Drag::lagged
+                                    ? std::max(0.0, 1 - dt * sum.drag * (1 / solid.mass + 1 / sum.mass))
+                                    : 1.0;
+    const double keep = 1 / (1 + liquid.drag * (1 / solid.mass + 1 / sum.mass));
+    liquid.keep = keep * explicitKeep;
+    liquid.relativeVr = keep * (liquid.liquidVr - liquid.solidVr);
+    liquid.relativeVz = keep * (liquid.liquidVz - liquid.solidVz);
+    const double share = sum.mass / (solid.mass + sum.mass);
+    node.vr = liquid.solidVr + share * (liquid.liquidVr - liquid.solidVr - liquid.relativeVr);
+    node.vz = liquid.solidVz + share * (liquid.liquidVz - liquid.solidVz - liquid.relativeVz);
+    node.dvr = node.vr - oldR;
+    node.dvz = node.vz - oldZ;
+    node.placeVr = oldR + 0.5 * node.dvr;
+    node.placeVz = oldZ + 0.5 * node.dvz;
+}
+
+/// The liquid where the solid's velocity along a direction was changed: its own balance of momentum holds
+/// with the drag of the new velocity.
+template <class Shape, int phases>
+void ExplicitStep<Shape, phases>::solveLiquidAgain(int i, const std::array<double, 2>& direction)
+{
+    const Node& node = nodes_[i];
+    LiquidNode& liquid = liquidNodes_[i];
+    const double solid = node.vr * direction[0] + node.vz * direction[1];
+    const double free = liquid.liquidVr * direction[0] + liquid.liquidVz * direction[1];
+    const double relative = (liquid.mass * free + liquid.drag * solid) / (liquid.mass + liquid.drag) - solid;
+    const double change = relative - liquid.relativeVr * direction[0] - liquid.relativeVz * direction[1];
+    liquid.relativeVr += change * direction[0];
+    liquid.relativeVz += change * direction[1];
+}
+
+template <class Shape, int phases>
+void ExplicitStep<Shape, phases>::applyLiquidConditions(double time, bool remapped)
+{
+    const auto& conditions = scene_.liquidBoundary.nodes();
+    for (std::size_t c = 0; c < conditions.size(); ++c) {
+        const LiquidBoundary::Node& condition = conditions[c];
+        Node& node = nodes_[condition.node];
+        if (node.mass <= 0) {
+            continue;
+        }
+        LiquidNode& liquid = liquidNodes_[condition.node];
+        for (int d = 0; d < condition.directions; ++d) {
+            const auto& n = condition.normal[d];
+            // A discharge is the flow relative to the soil per area of mixture.
+            const double discharge = condition.flux[d] ? condition.flux[d]->at(time, 0) : 0;
+            const double given = discharge / liquid.porosity;
+            const double change = given - liquid.relativeVr * n[0] - liquid.relativeVz * n[1];
+            liquid.relativeVr += change * n[0];
+            liquid.relativeVz += change * n[1];
+            if (solidHeld_[c][d] || remapped) {
+                continue;
+            }
+            // A solid that is free there moves with its liquid: their momentum is that of both.
+            const double solidV = liquid.solidVr * n[0] + liquid.solidVz * n[1];
+            const double liquidV = liquid.liquidVr * n[0] + liquid.liquidVz * n[1];
+            const double velocity =
+                (node.mass * solidV + liquid.mass * (liquidV - given)) / (node.mass + liquid.mass);
+            const double correction = velocity - node.vr * n[0] - node.vz * n[1];
+            node.vr += correction * n[0];
+            node.vz += correction * n[1];
+            node.dvr += correction * n[0];
+            node.dvz += correction * n[1];
+            node.placeVr += 0.5 * correction * n[0];
+            node.placeVz += 0.5 * correction * n[1];
+        }
+    }
+}
+
+/// Contact of two-phase soil. A wall is impermeable, with free slip for the liquid; the soil's skeleton may
+/// leave it. What presses the skeleton on it is the effective stress alone, since the wall bears the pore
+/// pressure (solveTwoPhaseNode), and friction follows from that.
+template <class Shape, int phases>
+void ExplicitStep<Shape, phases>::touchTwoPhase(const RigidBody& body, BodyReaction& reaction,
+                                                const SurfaceNode& contact, double dt, bool remapped)
+{
+    Node& node = nodes_[contact.node];
+    LiquidNode& liquid = liquidNodes_[contact.node];
+    const double ms = node.mass;
+    const double mw = liquid.mass;
+    const double drag = liquid.drag;
+    const auto touch = [&](const std::array<double, 2>& n, SurfacePart part, double bodyVz, double area) {
+        const std::array<double, 2> t{-n[1], n[0]};
+        const double wallN = bodyVz * n[1];
+        const double wallT = bodyVz * t[1];
+        const double oldN = node.vr * n[0] + node.vz * n[1];
+        const double oldT = node.vr * t[0] + node.vz * t[1];
+        if (remapped) { // as in one phase; the liquid keeps to the wall
+            double newN = oldN;
+            double newT = oldT;
+            if (oldN < wallN) {
+                newN = wallN;
+                const double slip = oldT - wallT;
+                const double limit = body.friction * (wallN - oldN) + body.adhesion * area * dt / ms;
+                newT -= std::abs(slip) > limit ? std::copysign(limit, slip) : slip;
+            }
+            const double relativeT = liquid.relativeVr * t[0] + liquid.relativeVz * t[1];
+            node.vr = newN * n[0] + newT * t[0];
+            node.vz = newN * n[1] + newT * t[1];
+            liquid.relativeVr = (wallN - newN) * n[0] + relativeT * t[0];
+            liquid.relativeVz = (wallN - newN) * n[1] + relativeT * t[1];
+            return;
+        }
+        const double solidN = liquid.solidVr * n[0] + liquid.solidVz * n[1];
+        const double solidT = liquid.solidVr * t[0] + liquid.solidVz * t[1];
+        const double liquidN = liquid.liquidVr * n[0] + liquid.liquidVz * n[1];
+        const double liquidT = liquid.liquidVr * t[0] + liquid.liquidVz * t[1];
+        // Along the normal the liquid moves with the wall; the solid feels its drag.
+        double newN = (ms * solidN + drag * wallN) / (ms + drag);
+        const bool pressed = newN < wallN;
+        const double impulseN = pressed ? (ms + drag) * (wallN - newN) : 0;
+        const double limit = pressed ? body.friction * impulseN + body.adhesion * area * dt : 0;
+        newN = pressed ? wallN : newN;
+        const double waterN = mw * (wallN - liquidN) + drag * (wallN - newN);
+        // Along the wall both move; an impulse on the solid drags the liquid along.
+        const double dragged = mw * drag / (mw + drag);
+        double newT = (ms * solidT + dragged * liquidT) / (ms + dragged);
+        const double stick = (ms + dragged) * (wallT - newT);
+        const double impulseT = std::abs(stick) > limit ? std::copysign(limit, stick) : stick;
+        newT += impulseT / (ms + dragged);
+        const double liquidNewT = (mw * liquidT + drag * newT) / (mw + drag);
+
+        const double changeN = newN - oldN;
+        const double changeT = newT - oldT;
+        node.vr = newN * n[0] + newT * t[0];
+        node.vz = newN * n[1] + newT * t[1];
+        node.dvr += changeN * n[0] + changeT * t[0];
+        node.dvz += changeN * n[1] + changeT * t[1];
+        // Where soil and wall touch, the points move with the wall along its normal; else with the mean.
+        const double placeN = node.placeVr * n[0] + node.placeVz * n[1];
+        const double moreN = pressed ? newN - placeN : 0.5 * changeN;
+        node.placeVr += moreN * n[0] + 0.5 * changeT * t[0];
+        node.placeVz += moreN * n[1] + 0.5 * changeT * t[1];
+        liquid.relativeVr = (wallN - newN) * n[0] + (liquidNewT - newT) * t[0];
+        liquid.relativeVz = (wallN - newN) * n[1] + (liquidNewT - newT) * t[1];
+        const double impulseR = impulseN * n[0] + impulseT * t[0];
+        const double impulseZ = impulseN * n[1] + impulseT * t[1];
+        liquid.solidVr += impulseR / ms; // for a second face
+        liquid.solidVz += impulseZ / ms;
+        reaction.radialImpulse[static_cast<int>(part)] -= impulseR;
+        reaction.verticalImpulse[static_cast<int>(part)] -= impulseZ;
+        reaction.waterImpulse -= waterN * n[1];
+        reaction.work += (impulseZ + waterN * n[1]) * body.velocity;
+    };
+    if (!remapped) {
+        const double water = dt * liquid.pressure * wallArea_[contact.node][1];
+        reaction.waterImpulse -= water;
+        reaction.work += water * body.velocity;
+    }
+    const bool tipCorner = contact.faces == 2 && contact.part[0] == SurfacePart::tip;
+    if (!tipCorner || body.tipCorner == TipCorner::full) {
+        for (int f = 0; f < contact.faces; ++f) {
+            touch(contact.normal[f], contact.part[f], body.velocity, contact.area[f]);
+        }
+        if (contact.faces == 2) { // the liquid in a corner moves with both faces
+            liquid.relativeVr = -node.vr;
+            liquid.relativeVz = body.velocity - node.vz;
+        }
+    } else if (body.tipCorner == TipCorner::rounded) {
+        touch(contact.roundedNormal, contact.part[0], body.velocity, contact.area[0]);
+    } else {
+        const double w = contact.tipShare;
+        const double besideVz = contact.beside >= 0 && nodes_[contact.beside].mass > 0
+                                    ? nodes_[contact.beside].vz
+                                    : body.velocity;
+        touch(contact.normal[0], contact.part[0], w * body.velocity + (1 - w) * besideVz, contact.area[0]);
+    }
+}
+
+} // namespace caisson

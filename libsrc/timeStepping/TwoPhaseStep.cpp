@@ -1,0 +1,12 @@
+#include "timeStepping/LiquidKernels.h"
+
+namespace caisson {
+
+template class ExplicitStep<shapes::Rectangle<true>, 2>;
+template class ExplicitStep<shapes::Rectangle<false>, 2>;
+template class ExplicitStep<shapes::Quadrilateral<true>, 2>;
+template class ExplicitStep<shapes::Quadrilateral<false>, 2>;
+template class ExplicitStep<shapes::Triangle<true>, 2>;
+template class ExplicitStep<shapes::Triangle<false>, 2>;
+
+} // namespace caisson

@@ -1,0 +1,467 @@
+// Two-phase soil against exact answers: consolidation, waves, flow, contact.
+
+#include "support/Simulation.h"
+#include "support/StructuredMesh.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <complex>
+#include <cstdio>
+#include <numbers>
+
+namespace caisson::testing {
+namespace {
+
+using std::numbers::pi;
+
+constexpr double porosity = 0.35, solidDensity = 2650, liquidDensity = 1000, viscosity = 1e-3, g = 9.81;
+
+/// Saturated elastic soil; permeability intrinsic [m2].
+std::string saturatedSoil(double youngsModulus, double poissonsRatio, double permeability, double bulkModulus,
+                          const std::string& more = "")
+{
+    char text[512];
+    std::snprintf(text, sizeof text,
+                  "law linearElastic; porosity %g; solidDensity %g; liquidDensity %g; youngsModulus %.17g; "
+                  "poissonsRatio %g; intrinsicPermeability %.17g; liquidBulkModulus %g; "
+                  "liquidViscosity %g; %s",
+                  porosity, solidDensity, liquidDensity, youngsModulus, poissonsRatio, permeability,
+                  bulkModulus, viscosity, more.c_str());
+    return text;
+}
+
+double oedometricModulus(double youngsModulus, double poissonsRatio)
+{
+    return youngsModulus * (1 - poissonsRatio) / ((1 + poissonsRatio) * (1 - 2 * poissonsRatio));
+}
+
+void report(const char* what, double got, double tolerance)
+{
+    std::printf("%-60s %.3e  (tolerance %.1e)\n", what, got, tolerance);
+}
+
+/// A column of n cells of height 1 m, one cell wide, between rollers.
+Simulation column(int n, bool triangles, Geometry geometry, const std::string& soil, const std::string& top,
+                  const std::string& topWater)
+{
+    Simulation simulation;
+    const double h = 1.0 / n;
+    simulation.state.mesh = structuredMesh(evenLines(0, h, 1), evenLines(0, 1, n), geometry, triangles);
+    const int material = simulation.addMaterial("soil", soil);
+    simulation.scene.controls.phases = 2;
+    if (triangles) {
+        simulation.scene.controls.locking = SolutionControls::Locking::nodalAverage;
+    }
+    const std::string left = geometry == Geometry::axisymmetric ? "" : "left { type slip; } ";
+    simulation.setConditions(left + "right { type slip; } bottom { type slip; } top { " + top + " }");
+    simulation.setPressures((left.empty() ? "" : "left { type impermeable; } ") +
+                            std::string("right { type impermeable; } bottom { type impermeable; } top { ") +
+                            topWater + " }");
+    if (triangles) {
+        simulation.fill(material, 3, 1);
+    } else {
+        simulation.fill(material, 2, 2);
+    }
+    simulation.state.points.addLiquid();
+    return simulation;
+}
+
+// ---------------------------------------------------------------------------------------------------------
+
+struct Terzaghi
+{
+    double error; ///< root mean square of p over the points, over the load
+    long steps;
+};
+
+/// One-dimensional consolidation at the time factor T; the load q is carried undrained at the start.
+Terzaghi consolidate(int n, bool triangles, Geometry geometry, double T, double damping = 0)
+{
+    const double E = 60e6, nu = 0.25, k = 1e-4, bulk = 2.2e9, q = 1e4;
+    const double M = oedometricModulus(E, nu);
+    Simulation simulation = column(
+        n, triangles, geometry, saturatedSoil(E, nu, k * viscosity / (liquidDensity * g), bulk),
+        "type traction; uniformValue (0 0 " + std::to_string(-q) + ");", "type fixedValue; value uniform 0;");
+    simulation.scene.controls.localDamping = damping;
+    MaterialPoints& points = simulation.state.points;
+    const double share = bulk / porosity / (M + bulk / porosity);
+    const double lateral = nu / (1 - nu);
+    for (std::size_t p = 0; p < points.size(); ++p) {
+        points.porePressure[p] = share * q;
+        points.stress[1][p] = -(1 - share) * q;
+        points.stress[0][p] = points.stress[2][p] = -lateral * (1 - share) * q;
+    }
+    simulation.start();
+    const double cv = k / (liquidDensity * g * (1 / M + porosity / bulk));
+    simulation.run(T / cv, 0.8);
+    double error = 0;
+    for (std::size_t p = 0; p < points.size(); ++p) {
+        const double Z = 1 - points.initialZ[p];
+        double exact = 0;
+        for (int i = 0; i < 200; ++i) {
+            const double a = (2 * i + 1) * pi / 2;
+            exact += 2 / a * std::sin(a * Z) * std::exp(-a * a * T);
+        }
+        error += std::pow(points.porePressure[p] / q - share * exact, 2);
+    }
+    return {std::sqrt(error / static_cast<double>(points.size())), simulation.state.step};
+}
+
+TEST(Consolidation, terzaghiOnQuadrilaterals)
+{
+    const Terzaghi result = consolidate(50, false, Geometry::planeStrain, 0.1);
+    report("Terzaghi, 50 quadrilaterals, T = 0.1: rms of p/q", result.error, 2e-3);
+    EXPECT_LT(result.error, 2e-3);
+}
+
+TEST(Consolidation, terzaghiOnTriangles)
+{
+    const Terzaghi result = consolidate(50, true, Geometry::planeStrain, 0.1);
+    report("Terzaghi, 50 x 2 triangles, T = 0.1: rms of p/q", result.error, 2e-3);
+    EXPECT_LT(result.error, 2e-3);
+}
+
+TEST(Consolidation, terzaghiInAxisymmetry)
+{
+    const Terzaghi result = consolidate(50, false, Geometry::axisymmetric, 0.1);
+    report("Terzaghi, 50 axisymmetric quadrilaterals, T = 0.1", result.error, 2e-3);
+    EXPECT_LT(result.error, 2e-3);
+}
+
+/// The ramp of the peers' benchmark: 1 m of soil, a load of 10 kPa that rises over 0.1 s; rms of p over the
+/// points at the end of the ramp, over the load.
+double rampError(int n, bool triangles)
+{
+    const double E = 1e7, k = 1e-3, bulk = 2e8, n0 = 0.4, q = 1e4, ramp = 0.1;
+    char text[400];
+    std::snprintf(text, sizeof text,
+                  "law linearElastic; porosity %g; solidDensity 2650; youngsModulus %g; poissonsRatio 0; "
+                  "intrinsicPermeability %.17g; liquidBulkModulus %g; liquidViscosity 1e-3;",
+                  n0, E, k * viscosity / (liquidDensity * g), bulk);
+    Simulation simulation = column(n, triangles, Geometry::axisymmetric, text,
+                                   "type traction; uniformValue table ((0 (0 0 0)) (0.1 (0 0 -1e4)));",
+                                   "type fixedValue; value uniform 0;");
+    simulation.start();
+    simulation.run(ramp, 0.8);
+    const double cv = k / (liquidDensity * g * (1 / E + n0 / bulk));
+    const double rate = bulk / n0 / (E + bulk / n0) * q / ramp;
+    const MaterialPoints& points = simulation.state.points;
+    double error = 0;
+    for (std::size_t p = 0; p < points.size(); ++p) {
+        const double Z = 1 - points.initialZ[p];
+        double exact = 0;
+        for (int i = 0; i < 200; ++i) {
+            const double a = (2 * i + 1) * pi / 2;
+            exact += 2 / (a * a * a * cv) * std::sin(a * Z) * (1 - std::exp(-a * a * cv * ramp));
+        }
+        error += std::pow((points.porePressure[p] - rate * exact) / q, 2);
+    }
+    return std::sqrt(error / static_cast<double>(points.size()));
+}
+
+TEST(Consolidation, terzaghiUnderARamp)
+{
+    const double quadrilaterals = rampError(35, false);
+    const double triangles = rampError(35, true);
+    report("Terzaghi ramp, 35 quadrilaterals: rms of p/q", quadrilaterals, 6e-3);
+    report("Terzaghi ramp, 35 x 2 triangles: rms of p/q", triangles, 6e-3);
+    EXPECT_LT(quadrilaterals, 6e-3);
+    EXPECT_LT(triangles, 6e-3);
+}
+
+/// A loaded column whose top is drained, after the waves have died down: undrained at the base where the
+/// permeability is small, drained where it is large, at one and the same step.
+TEST(Consolidation, theUndrainedAndTheDrainedLimitAreMetAtTheSameStep)
+{
+    const double E = 60e6, nu = 0.25, bulk = 2e7, q = 1e4, M = oedometricModulus(E, nu);
+    double step = 0;
+    for (const double permeability : {1e-14, 1e-13, 1e-12, 1e-11, 1e-10, 1e-9, 1e-8}) {
+        Simulation simulation =
+            column(20, false, Geometry::planeStrain, saturatedSoil(E, nu, permeability, bulk),
+                   "type traction; uniformValue (0 0 -1e4);", "type fixedValue; value uniform 0;");
+        simulation.scene.controls.localDamping = 0.5;
+        simulation.start();
+        const double dt = 0.9 * simulation.step->stableStep(simulation.state).step;
+        EXPECT_TRUE(step == 0 || std::abs(dt / step - 1) < 1e-12) << "permeability " << permeability;
+        step = dt;
+        for (int i = 0; i < 8000; ++i) {
+            simulation.step->advance(simulation.state, dt);
+        }
+        const MaterialPoints& points = simulation.state.points;
+        double base = 0, settlement = 0;
+        for (std::size_t p = 0; p < points.size(); ++p) {
+            base = points.initialZ[p] < 0.05 ? points.porePressure[p] : base;
+            settlement = std::min(settlement, points.z[p] - points.initialZ[p]);
+            ASSERT_TRUE(std::isfinite(points.porePressure[p])) << "permeability " << permeability;
+            EXPECT_LT(std::abs(points.porePressure[p]), 2 * q) << "permeability " << permeability;
+        }
+        if (permeability < 1e-12) {
+            const double exact = bulk / porosity / (M + bulk / porosity) * q;
+            report("undrained limit: p at the base/exact - 1", base / exact - 1, 2e-2);
+            EXPECT_NEAR(base / exact, 1, 2e-2) << "permeability " << permeability;
+        } else if (permeability > 1e-9) {
+            const double exact = -q / M * (1 - 0.5 / 40); // of the uppermost points
+            report("drained limit: settlement/exact - 1", settlement / exact - 1, 2e-2);
+            EXPECT_NEAR(settlement / exact, 1, 2e-2) << "permeability " << permeability;
+        }
+    }
+}
+
+// ---------------------------------------------------------------------------------------------------------
+
+/// Steady upward flow through a column under a head: discharge over that of Darcy's law, minus one.
+double steadyFlowError(double damping, SolutionControls::Drag drag)
+{
+    const double permeability = 1e-10, pressure = 1e3, bulk = 2e7;
+    Simulation simulation =
+        column(10, false, Geometry::planeStrain, saturatedSoil(6e7, 0.25, permeability, bulk),
+               "type zeroGradient;", "type fixedValue; value uniform 0;");
+    simulation.setPressures("left { type impermeable; } right { type impermeable; } "
+                            "bottom { type fixedValue; value uniform 1000; } "
+                            "top { type fixedValue; value uniform 0; }");
+    simulation.scene.controls.localDamping = damping;
+    simulation.scene.controls.drag = drag;
+    simulation.start();
+    const double M = oedometricModulus(6e7, 0.25);
+    const double cv = permeability / viscosity / (1 / M + porosity / bulk);
+    simulation.run(3 / cv, 0.9);
+    const MaterialPoints& points = simulation.state.points;
+    double discharge = 0;
+    for (std::size_t p = 0; p < points.size(); ++p) {
+        discharge += porosity * (points.wz[p] - points.vz[p]) / static_cast<double>(points.size());
+    }
+    return discharge / (permeability / viscosity * pressure) - 1;
+}
+
+TEST(Flow, dampingDoesNotActOnTheDragOfASteadyFlow)
+{
+    for (const double damping : {0.0, 0.5, 0.75}) {
+        const double error = steadyFlowError(damping, SolutionControls::Drag::implicit);
+        report("steady flow: discharge/Darcy - 1", error, 1e-3);
+        EXPECT_NEAR(error, 0, 1e-3) << "damping " << damping;
+    }
+}
+
+TEST(Flow, laggedDragHasTheSameSteadyFlow)
+{
+    const double error = steadyFlowError(0, SolutionControls::Drag::lagged);
+    report("steady flow, lagged drag: discharge/Darcy - 1", error, 1e-3);
+    EXPECT_NEAR(error, 0, 1e-3);
+}
+
+/// V23: an upward gradient of gamma'/gamma_w takes the whole weight of the soil.
+TEST(Flow, theCriticalGradientTakesTheWeightOfTheSoil)
+{
+    const double critical = (1 - porosity) * (solidDensity - liquidDensity) * g; // [Pa] over 1 m
+    Simulation simulation = column(10, false, Geometry::planeStrain, saturatedSoil(6e7, 0.25, 1e-10, 2e7),
+                                   "type zeroGradient;", "type fixedValue; value uniform 0;");
+    simulation.setPressures("left { type impermeable; } right { type impermeable; } "
+                            "bottom { type fixedValue; value uniform " +
+                            std::to_string(critical + liquidDensity * g) +
+                            "; } top { type fixedValue; value uniform 0; }");
+    simulation.scene.gravity = {0, -g};
+    simulation.scene.controls.localDamping = 0.5;
+    MaterialPoints& points = simulation.state.points;
+    const double lateral = 0.25 / 0.75;
+    for (std::size_t p = 0; p < points.size(); ++p) {
+        const double depth = 1 - points.z[p];
+        points.porePressure[p] = liquidDensity * g * depth;
+        points.stress[1][p] = -critical * depth;
+        points.stress[0][p] = points.stress[2][p] = -lateral * critical * depth;
+    }
+    // The pressures of 0/p are as they are, hydrostatic part included: zero at z = 1 here.
+    simulation.start();
+    const double M = oedometricModulus(6e7, 0.25);
+    simulation.run(3 * (1 / M + porosity / 2e7) * viscosity / 1e-10, 0.9);
+    std::vector<double> stress(10, 0); // means of the cells, which are in equilibrium
+    for (std::size_t p = 0; p < points.size(); ++p) {
+        stress[points.cell[p]] += points.stress[1][p] / 4;
+    }
+    double largest = 0;
+    for (const double mean : stress) {
+        largest = std::max(largest, std::abs(mean));
+    }
+    report("critical gradient: largest vertical effective stress/weight", largest / critical, 5e-3);
+    EXPECT_LT(largest / critical, 5e-3);
+}
+
+/// A column under water with its free surface inside cells, with the stress of its weight.
+Simulation columnUnderWater(double level)
+{
+    Simulation simulation;
+    simulation.state.mesh =
+        structuredMesh(evenLines(0, 0.2, 2), evenLines(0, 1.2, 12), Geometry::axisymmetric);
+    const int soil = simulation.addMaterial(
+        "sand", "law mohrCoulomb; porosity 0.35; solidDensity 2650; liquidDensity 1000; youngsModulus 60e6; "
+                "poissonsRatio 0.25; frictionAngle 38; dilatancyAngle 1; cohesion 0; "
+                "intrinsicPermeability 1e-11; liquidBulkModulus 2e7; liquidViscosity 1e-3;");
+    simulation.scene.controls.phases = 2;
+    simulation.scene.gravity = {0, -g};
+    simulation.setConditions("right { type slip; } bottom { type slip; } top { type zeroGradient; }");
+    simulation.setPressures("right { type impermeable; } bottom { type impermeable; } "
+                            "top { type impermeable; }");
+    FreeSurface surface;
+    surface.name = "seabed";
+    surface.level = level;
+    simulation.scene.freeSurfaces.push_back(std::move(surface));
+    simulation.fill(soil, 2, 2, [](double, double z) { return z < 1; });
+    simulation.state.points.addLiquid();
+    const double weight = (1 - porosity) * (solidDensity - liquidDensity) * g;
+    simulation.setStress([&](double, double z) {
+        const double vertical = -weight * (1 - z);
+        return std::array<double, 4>{0.384 * vertical, vertical, 0.384 * vertical, 0};
+    });
+    for (std::size_t p = 0; p < simulation.state.points.size(); ++p) {
+        simulation.state.points.porePressure[p] = liquidDensity * g * (level - simulation.state.points.z[p]);
+    }
+    return simulation;
+}
+
+TEST(FreeSurface, aColumnUnderWaterStaysAtRest)
+{
+    for (const double level : {1.0, 30.0}) { // the constant part of the pressure drops out
+        Simulation simulation = columnUnderWater(level);
+        simulation.start();
+        const double dt = 0.8 * simulation.step->stableStep(simulation.state).step;
+        for (int i = 0; i < 10000; ++i) {
+            simulation.step->advance(simulation.state, dt);
+        }
+        double fastest = 0;
+        const MaterialPoints& points = simulation.state.points;
+        for (std::size_t p = 0; p < points.size(); ++p) {
+            fastest = std::max(
+                {fastest, std::hypot(points.vr[p], points.vz[p]), std::hypot(points.wr[p], points.wz[p])});
+        }
+        report("column under water after 1e4 steps: largest velocity [m/s]", fastest, 1e-8);
+        EXPECT_LT(fastest, 1e-8) << "level " << level;
+    }
+}
+
+/// Suction on the surface of a column with an impermeable base: the pore pressure falls by as much, and no
+/// effective stress is left of it.
+TEST(FreeSurface, aSuctionReachesTheWholeColumn)
+{
+    Simulation simulation = columnUnderWater(1);
+    simulation.scene.freeSurfaces[0].pressure = constantFunction1(-2e4);
+    simulation.scene.controls.localDamping = 0.3;
+    simulation.start();
+    simulation.run(10, 0.8);
+    const MaterialPoints& points = simulation.state.points;
+    double largest = 0;
+    for (std::size_t p = 0; p < points.size(); ++p) {
+        const double exact = liquidDensity * g * (1 - points.initialZ[p]) - 2e4;
+        largest = std::max(largest, std::abs(points.porePressure[p] - exact));
+    }
+    report("suction on the surface: largest difference of pressure [Pa]", largest, 20);
+    EXPECT_LT(largest, 20);
+}
+
+// ---------------------------------------------------------------------------------------------------------
+
+/// V10: the first mode of a column fixed at its base, free and drained at the top: rms over two periods of
+/// the solid's velocity amplitude against the two coupled equations of the mode, over its start.
+double waveError(double hydraulicConductivity, double bulk, int n)
+{
+    const double M = 72e6, E = 60e6, nu = 0.25;
+    const double permeability = hydraulicConductivity * viscosity / (liquidDensity * g);
+    Simulation simulation = column(n, false, Geometry::planeStrain, saturatedSoil(E, nu, permeability, bulk),
+                                   "type zeroGradient;", "type fixedValue; value uniform 0;");
+    const double K = pi / 2;
+    MaterialPoints& points = simulation.state.points;
+    for (std::size_t p = 0; p < points.size(); ++p) {
+        points.vz[p] = points.wz[p] = 1e-3 * std::sin(K * points.z[p]);
+    }
+    simulation.start();
+    const double mw = porosity * liquidDensity, ms = (1 - porosity) * solidDensity;
+    const double drag = porosity * porosity * viscosity / permeability;
+    const double storage = bulk / porosity, nw = porosity, ns = 1 - porosity;
+    const double c = std::sqrt((M + storage) / (mw + ms));
+    const double duration = 2 * 4 / c;
+    const long steps = std::lround(duration / (0.5 * simulation.step->stableStep(simulation.state).step));
+    const double dt = duration / static_cast<double>(steps);
+    // The mode's own equations, by the implicit midpoint rule with small steps.
+    double uw = 0, us = 0, w = 1e-3, v = 1e-3;
+    constexpr int fine = 20;
+    double error = 0;
+    for (long i = 0; i < steps; ++i) {
+        simulation.step->advance(simulation.state, dt);
+        const double h = dt / fine;
+        for (int j = 0; j < fine; ++j) {
+            uw += 0.5 * h * w;
+            us += 0.5 * h * v;
+            const double p = storage * (nw * uw + ns * us);
+            const double aw = w - h * K * K * nw * p / mw;
+            const double as = v - h * K * K * (ns * p + M * us) / ms;
+            const double relative = (aw - as) / (1 + h * drag * (1 / mw + 1 / ms));
+            v = (mw * aw + ms * as - mw * relative) / (mw + ms);
+            w = v + relative;
+            uw += 0.5 * h * w;
+            us += 0.5 * h * v;
+        }
+        double amplitude = 0;
+        for (std::size_t p = 0; p < points.size(); ++p) {
+            amplitude +=
+                2 * points.vz[p] * std::sin(K * points.initialZ[p]) / static_cast<double>(points.size());
+        }
+        error += std::pow(amplitude - v, 2) / static_cast<double>(steps);
+    }
+    return std::sqrt(error) / 1e-3;
+}
+
+TEST(Waves, theFirstModeOfAColumnHasTheCoupledFrequency)
+{
+    for (const double k : {1e-6, 1e-4, 1e-2}) {
+        const double error = waveError(k, 2.2e9, 40);
+        report("two-phase wave: rms of the amplitude", error, 1e-2);
+        EXPECT_LT(error, 1e-2) << "k " << k;
+    }
+}
+
+// ---------------------------------------------------------------------------------------------------------
+
+/// The friction on a rod in an annulus that presses on it with an effective stress and ten times as much pore
+/// pressure: from the effective stress alone.
+TEST(PullOut, frictionFollowsFromTheEffectiveStressAlone)
+{
+    const int n = 8;
+    const double a = 0.5, b = 1, height = 8, pressed = 1e3, pore = 1e4, young = 1e7, mu = 0.3;
+    Simulation simulation;
+    simulation.state.mesh =
+        structuredMesh(evenLines(0, b, 2 * n), evenLines(0, height, 8 * n), Geometry::axisymmetric);
+    const int soil = simulation.addMaterial("soil", saturatedSoil(young, 0.25, 1e-9, 2e7));
+    simulation.scene.controls.phases = 2;
+    simulation.setConditions("right { type fixedValue; value uniform (0 0 0); } "
+                             "bottom { type slip; } top { type slip; }");
+    simulation.setPressures("right { type fixedValue; value uniform 10000; } bottom { type impermeable; } "
+                            "top { type impermeable; }");
+    const double M = oedometricModulus(young, 0.25), G = young / 2.5;
+    const double c = std::sqrt(M / 2072.5);
+    const double slipAt = mu * pressed * a * std::log(b / a) / G, duration = 30 * height / c;
+    RigidBody rod;
+    rod.name = "rod";
+    rod.profile = profileFromPolygon({{0, 0}, {a, 0}, {a, height + 2}, {0, height + 2}});
+    rod.tipLevel = rod.initialTipLevel = -1;
+    rod.friction = mu;
+    rod.penetrationRate = std::shared_ptr<const Function1>(constantFunction1(-2 * slipAt / duration));
+    rod.ramp = 0.5 * duration;
+    simulation.state.bodies.push_back(rod);
+    simulation.fill(soil, 2, 2, [&](double r, double) { return r > a; });
+    simulation.state.points.addLiquid();
+    std::ranges::fill(simulation.state.points.porePressure, pore);
+    simulation.setStress([&](double, double) {
+        return std::array<double, 4>{-pressed, -pressed, -pressed, 0};
+    });
+    simulation.start();
+    simulation.run(0.9 * duration, 0.8);
+    simulation.state.reactions[0].restartCollection();
+    simulation.run(duration, 0.8);
+    const BodyReaction& reaction = simulation.state.reactions[0];
+    const double shear = -reaction.verticalImpulse[static_cast<int>(SurfacePart::outer)] / reaction.duration /
+                         (mu * pressed * a * height * (1 - 1.0 / (8 * n)));
+    report("pull-out under pore pressure: tau/(mu sigma') - 1", shear - 1, 1e-2);
+    EXPECT_NEAR(shear, 1, 1e-2);
+}
+
+} // namespace
+} // namespace caisson::testing
