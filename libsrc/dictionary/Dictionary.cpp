@@ -33,13 +33,14 @@ const Entry* Dictionary::findExact(std::string_view keyword) const
 
 const Entry* Dictionary::find(std::string_view keyword) const
 {
-    if (const Entry* exact = findExact(keyword); exact || !hasPatterns_) {
+    if (const Entry* exact = findExact(keyword); exact || patterns_.empty()) {
         return exact;
     }
     const std::string word(keyword);
-    for (const Entry& entry : entries_ | std::views::reverse) {
-        if (entry.pattern && entry.pattern->matches(word)) {
-            return &entry;
+    for (const std::string& pattern : patterns_ | std::views::reverse) {
+        const Entry* entry = findExact(pattern); // none where it was removed
+        if (entry && entry->pattern && entry->pattern->matches(word)) {
+            return entry;
         }
     }
     return nullptr;
@@ -66,7 +67,9 @@ const Entry* Dictionary::findScoped(std::string_view path, bool patterns) const
 void Dictionary::append(Entry entry)
 {
     index_.emplace(entry.keyword, entries_.size());
-    hasPatterns_ = hasPatterns_ || entry.pattern;
+    if (entry.pattern) {
+        patterns_.push_back(entry.keyword);
+    }
     entries_.push_back(std::move(entry));
 }
 
@@ -75,12 +78,13 @@ void Dictionary::removeIf(const std::function<bool(const Entry&)>& condition)
     std::vector<Entry> kept;
     std::swap(kept, entries_);
     index_.clear();
-    hasPatterns_ = false;
+    std::vector<std::string> order = std::move(patterns_);
     for (Entry& entry : kept) {
         if (!condition(entry)) {
             append(std::move(entry));
         }
     }
+    patterns_ = std::move(order);
 }
 
 const Dictionary* Dictionary::findDictionary(std::string_view keyword) const

@@ -42,7 +42,7 @@ struct Entry
 
 /// A dictionary in OpenFOAM's format, macros and directives already expanded.
 ///
-/// Lookup: exact keyword first, then patterns in reverse order of definition.
+/// Lookup: exact keyword first, then patterns, the one that was given its value last before the others.
 class Dictionary
 {
 public:
@@ -72,7 +72,7 @@ private:
 
     std::vector<Entry> entries_;
     std::map<std::string, std::size_t, std::less<>> index_; ///< place of each keyword in entries_
-    bool hasPatterns_ = false;
+    std::vector<std::string> patterns_;        ///< keywords, in the order in which they got their values
     std::shared_ptr<DictionaryOrigin> origin_; ///< shared by all of one file
     std::string name_;
     SourceLocation where_;

@@ -302,6 +302,9 @@ void DictionaryParser::add(Dictionary& into, Entry entry, InputMode mode)
     }
     entry.isPattern = existing.isPattern; // the first spelling of the keyword stands, as in OpenFOAM
     entry.pattern = existing.pattern;
+    if (entry.pattern && !(existing.dictionary && entry.dictionary)) {
+        into.patterns_.push_back(entry.keyword);
+    }
     existing = std::move(entry);
 }
 

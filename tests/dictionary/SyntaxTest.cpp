@@ -59,6 +59,24 @@ TEST(Syntax, lookupTakesTheExactKeyThenTheLastPattern)
     EXPECT_EQ(word("WALLS"), "anyCase");
 }
 
+TEST(Syntax, aPatternWithANewValueComesBeforeTheOthers)
+{
+    const auto found = [](const std::string& text, const char* key) {
+        const Dictionary dictionary = parseDictionary(text);
+        const Entry* entry = dictionary.findScoped(key);
+        return entry ? entry->tokens.at(0).number : 0;
+    };
+    EXPECT_EQ(found("\"a.*\" 1; \"ab.*\" 2; \"a.*\" 3;", "abc"), 3);
+    EXPECT_EQ(found("\"a.*\" 1; \"ab.*\" 2; p { \"a.*\" 5; } $p;", "abc"), 5);
+    EXPECT_EQ(found("p { \"ab.*\" 6; \"a.*\" 5; } q { \"a.*\" 1; \"ab.*\" 2; $..p; }", "q.abc"), 5);
+    EXPECT_EQ(found("\"a.*\" 1; \"ab.*\" 2; #inputMode protect\n\"a.*\" 3;", "abc"), 2);
+    EXPECT_EQ(found("\"a.*\" { x 1; } \"ab.*\" { x 2; } \"a.*\" { x 3; }", "abc.x"), 2); // merged: as it was
+    EXPECT_EQ(found("\"a.*\" { x 1; } \"ab.*\" { x 2; } #overwrite \"a.*\" { x 3; }", "abc.x"), 2);
+    EXPECT_EQ(found("\"a.*\" 1; \"ab.*\" { x 2; } \"a.*\" { x 3; }", "abc.x"), 3);
+    EXPECT_EQ(found("\"a.*\" 1; \"ab.*\" 2; \"a.*\" 3; b 1; #remove b\n", "abc"), 3);
+    EXPECT_EQ(found("\"a.*\" 1; \"ab.*\" 2; \"a.*\" 3; #remove \"a\\.\\*\"\n", "abc"), 2);
+}
+
 TEST(Syntax, scopedLookupTakesTheShortestKeyThatLeadsToAnEntry)
 {
     const Dictionary dictionary =
