@@ -106,6 +106,10 @@ Cloud cloud(const MaterialPoints& points, const std::vector<std::string>& stateN
             interleaved("liquidVelocity", FieldKind::vector, n, inPlane(points.wr, points.wz)));
         result.fields.push_back(plain("porePressure", points.porePressure));
     }
+    if (points.loaded()) {
+        result.fields.push_back(labels("load", points.load));
+        result.fields.push_back(plain("loadArea", points.loadArea));
+    }
     for (std::size_t k = 0; k < stateNames.size(); ++k) {
         result.fields.push_back(plain(stateNames[k], points.state[k]));
     }
@@ -145,6 +149,10 @@ MaterialPoints materialPoints(const Cloud& cloud, const std::vector<std::string>
         const auto& liquid = values(cloud, "liquidVelocity", FieldKind::vector);
         points.wr = component(liquid, 0, 3);
         points.wz = component(liquid, 2, 3);
+    }
+    if (std::ranges::find(cloud.fields, "load", &NamedField::name) != cloud.fields.end()) {
+        points.load = integers(values(cloud, "load", FieldKind::label));
+        points.loadArea = values(cloud, "loadArea", FieldKind::scalar);
     }
     for (const std::string& name : stateNames) {
         points.state.push_back(values(cloud, name, FieldKind::scalar));

@@ -28,6 +28,10 @@ void forEachArray(MaterialPoints& points, const Change& change)
     for (std::vector<int>* array : {&points.cell, &points.material, &points.id}) {
         change(*array);
     }
+    if (points.loaded()) {
+        change(points.loadArea);
+        change(points.load);
+    }
 }
 
 } // namespace

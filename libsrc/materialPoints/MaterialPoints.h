@@ -24,9 +24,14 @@ struct MaterialPoints
     /// Two-phase soil only, otherwise empty: velocity of the pore liquid [m/s], and its pressure, compression
     /// positive [Pa].
     std::vector<double> wr, wz, porePressure;
+    /// With point loads only, otherwise empty: index of the point's load or -1, and the area that it acts on
+    /// at the start [m2/rad] or [m].
+    std::vector<int> load;
+    std::vector<double> loadArea;
 
     [[nodiscard]] std::size_t size() const { return r.size(); }
     [[nodiscard]] bool twoPhase() const { return !porePressure.empty(); }
+    [[nodiscard]] bool loaded() const { return !load.empty(); }
     void resize(std::size_t points, std::size_t stateVariables);
     /// Adds the liquid, moving with the solid, at zero pressure.
     void addLiquid();

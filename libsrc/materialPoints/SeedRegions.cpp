@@ -295,10 +295,17 @@ double SeedRegion::volumeWithin(const BackgroundMesh& mesh, int cell) const
 
 std::vector<std::string> seedRegionTypes() { return {"all", "cellZone", "box", "polygon", "circle"}; }
 
+std::vector<Keyword> regionShapeKeywords(const std::string& type)
+{
+    std::vector<Keyword> keywords = shapeKeywords(type);
+    keywords.insert(keywords.begin(), {"type", "word", "", typeWords, "shape of the region"});
+    return keywords;
+}
+
 std::vector<Keyword> seedRegionKeywords(const std::string& type)
 {
-    std::vector<Keyword> keywords = {
-        {"type", "word", "", typeWords, "shape of the region"},
+    std::vector<Keyword> keywords = regionShapeKeywords(type);
+    const Keyword own[] = {
         {"material", "word", "", "", "name of a material in constant/materialProperties"},
         {"pointsPerCell", "list", "-", "",
          "quadrilaterals: (n m) along r and z, by default (2 2); triangles: 3 by default, or 1, 3 or 6 times "
@@ -308,14 +315,34 @@ std::vector<Keyword> seedRegionKeywords(const std::string& type)
          "boxes with finer points: ( { box ((r z) (r z)); maxSpacing d; } ... )"},
         {"velocity", "dictionary", "-", "", "initial velocity: { r <Function1 of r>; z <Function1 of z>; }"},
     };
-    const std::vector<Keyword> shape = shapeKeywords(type);
-    keywords.insert(keywords.begin() + 1, shape.begin(), shape.end());
+    keywords.insert(keywords.end(), std::begin(own), std::end(own));
     return keywords;
 }
 
 std::span<const Keyword> seedRefinementKeywords() { return refinementKeywords; }
 
 std::span<const Keyword> seedVelocityKeywords() { return velocityKeywords; }
+
+bool readRegionType(const Dictionary& dictionary, SeedRegion& region, InputProblems& problems)
+{
+    region.where = dictionary.where();
+    const Entry* type = dictionary.find("type");
+    region.type = type != nullptr && type->tokens.size() == 1 ? type->tokens[0].text : "";
+    const std::vector<std::string> types = seedRegionTypes();
+    if (std::ranges::find(types, region.type) != types.end()) {
+        return true;
+    }
+    problems.add(type != nullptr ? type->where : region.where,
+                 type != nullptr ? "unknown word '" + region.type + "' for type of a region"
+                                 : "missing key 'type' in a region",
+                 suggestion(region.type, types, "types"));
+    return false;
+}
+
+void readRegionShape(const KeywordReader& reader, const BackgroundMesh& mesh, SeedRegion& region)
+{
+    RegionReader(reader, region).readShape(mesh);
+}
 
 std::vector<SeedRegion> readSeedRegions(const std::vector<Dictionary>& regions, const BackgroundMesh& mesh,
                                         const std::vector<Material>& materials, InputProblems& problems)
@@ -328,15 +355,7 @@ std::vector<SeedRegion> readSeedRegions(const std::vector<Dictionary>& regions, 
     std::vector<SeedRegion> result;
     for (const Dictionary& dictionary : regions) {
         SeedRegion region;
-        region.where = dictionary.where();
-        const Entry* type = dictionary.find("type");
-        region.type = type != nullptr && type->tokens.size() == 1 ? type->tokens[0].text : "";
-        const std::vector<std::string> types = seedRegionTypes();
-        if (std::ranges::find(types, region.type) == types.end()) {
-            problems.add(type != nullptr ? type->where : region.where,
-                         type != nullptr ? "unknown word '" + region.type + "' for type of a region"
-                                         : "missing key 'type' in a region",
-                         suggestion(region.type, types, "types"));
+        if (!readRegionType(dictionary, region, problems)) {
             continue;
         }
         const std::vector<Keyword> keywords = seedRegionKeywords(region.type);

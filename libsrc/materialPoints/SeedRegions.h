@@ -45,6 +45,12 @@ std::vector<Keyword> seedRegionKeywords(const std::string& type);
 std::span<const Keyword> seedRefinementKeywords(); ///< of one of a region's refinements
 std::span<const Keyword> seedVelocityKeywords();   ///< of a region's velocity
 
+std::vector<Keyword> regionShapeKeywords(const std::string& type); ///< of shape and place alone
+/// Reads the type of a region; an unknown one is a problem. @returns whether it is known
+bool readRegionType(const Dictionary& dictionary, SeedRegion& region, InputProblems& problems);
+/// Reads shape and place, once the type is known.
+void readRegionShape(const KeywordReader& reader, const BackgroundMesh& mesh, SeedRegion& region);
+
 /// Reads `regions ( { type box; min (0 -20); max (15 0); material sand; pointsPerCell (2 2); } ... );`.
 std::vector<SeedRegion> readSeedRegions(const std::vector<Dictionary>& regions, const BackgroundMesh& mesh,
                                         const std::vector<Material>& materials, InputProblems& problems);

@@ -135,6 +135,26 @@ void readLiquid(const std::filesystem::path& caseDirectory, const std::string& s
     }
 }
 
+/// The loads that the points carry must be there, and every load must have points.
+void checkLoads(const std::filesystem::path& start, const CaseScene& result, InputProblems& problems)
+{
+    const std::vector<PointLoad>& loads = result.scene.pointLoads;
+    const std::vector<int>& carried = result.state.points.load;
+    const std::string again = "run setMaterialPoints again after a change of the loads";
+    if (!carried.empty() && *std::ranges::max_element(carried) >= static_cast<int>(loads.size())) {
+        problems.add({start.filename().string() + "/lagrangian/materialPoints/load", 0},
+                     "points carry load " + std::to_string(*std::ranges::max_element(carried)) +
+                         " (from 0), but constant/pointLoads has " + std::to_string(loads.size()),
+                     again);
+    }
+    for (std::size_t l = 0; l < loads.size(); ++l) {
+        if (std::ranges::find(carried, static_cast<int>(l)) == carried.end()) {
+            problems.add({"constant/pointLoads", 0}, "no material point carries load '" + loads[l].name + "'",
+                         "loadedPoints in system/setMaterialPointsDict; " + again);
+        }
+    }
+}
+
 void readPoints(const std::filesystem::path& start, CaseScene& result, InputProblems& problems)
 {
     if (!std::filesystem::exists(start / "lagrangian/materialPoints")) {
@@ -160,6 +180,7 @@ void readPoints(const std::filesystem::path& start, CaseScene& result, InputProb
             return;
         }
     }
+    checkLoads(start, result, problems);
     // Cells of the file may be of another numbering: what counts is where the points are.
     const CellLocator locator(result.state.mesh);
     for (std::size_t p = 0; p < points.size(); ++p) {
@@ -292,6 +313,11 @@ CaseScene readCaseScene(const std::filesystem::path& caseDirectory, const std::f
             problems.add({"constant/bodies", 0},
                          "body '" + state.bodies[b].name + "' moves, but the mesh does not follow it",
                          "constant/dynamicMeshDict: type followBody; body " + state.bodies[b].name + "; ...");
+        }
+    }
+    if (fileExists(caseDirectory / "constant/pointLoads")) {
+        if (const auto dictionary = readCaseDictionary(caseDirectory, "constant/pointLoads", "", problems)) {
+            scene.pointLoads = readPointLoads(*dictionary, state.mesh.geometry, problems);
         }
     }
     // The mesh must fit the bodies where constant/polyMesh has them.

@@ -81,6 +81,7 @@ private:
     void staggerStrain(State& state, double dt);
     void mapToNodes(State& state);
     void mapCellToNodes(State& state, int c);
+    void addPointLoads(const State& state, int c);
     void solveNodes(State& state, double dt);
     void findFreeSurfaces(const State& state);
     void prepareLiquid(const State& state);
@@ -157,6 +158,8 @@ private:
     std::vector<double> pressureShape_;            ///< per point: pressure interpolated from the nodes
     double unitWeight_ = 0;                        ///< of the liquid, along z [N/m3]: negative
     std::vector<double> cellLiquidRate_;           ///< as cellRate_, for the liquid
+    std::vector<double> loadedArea_;               ///< per load: of its points (see loadedAreas)
+    std::vector<std::array<double, 2>> pointTraction_; ///< per load, now [Pa]
     std::vector<double> cellRate_; ///< dilatation rate used by the points of the cell (nodal average)
     std::vector<double> nodeRate_;
     std::array<std::vector<double>, 4> strain_; ///< increments of the step, per point

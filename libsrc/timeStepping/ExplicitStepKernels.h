@@ -115,6 +115,8 @@ ExplicitStep<Shape, phases>::ExplicitStep(const Scene& scene, State& state)
     looseNode_.resize(mesh.nodes());
     byLoose_.resize(cells);
     traction_.resize(mesh.nodes());
+    loadedArea_ = loadedAreas(state.points, scene.pointLoads.size(), mesh.geometry);
+    pointTraction_.resize(scene.pointLoads.size());
     cellRate_.assign(cells, 0);
     nodeRate_.assign(mesh.nodes(), 0);
     if constexpr (twoPhase) {
@@ -607,6 +609,27 @@ void ExplicitStep<Shape, phases>::mapCellToNodes(State& state, int c)
 }
 
 template <class Shape, int phases>
+void ExplicitStep<Shape, phases>::addPointLoads(const State& state, int c)
+{
+    const MaterialPoints& points = state.points;
+    Values values;
+    for (const int* i = pointCells_.begin(c); i != pointCells_.end(c); ++i) {
+        const int p = *i;
+        const int load = points.load[p];
+        if (load < 0) {
+            continue;
+        }
+        const double growth = scene_.pointLoads[load].areaFollows ? points.r[p] / points.initialR[p] : 1.0;
+        const double area = growth * points.loadArea[p];
+        Shape::evaluate(cells_[c], points.r[p], points.z[p], values);
+        for (int k = 0; k < corners; ++k) {
+            cornerSums_[c * corners + k].forceR += values.N[k] * area * pointTraction_[load][0];
+            cornerSums_[c * corners + k].forceZ += values.N[k] * area * pointTraction_[load][1];
+        }
+    }
+}
+
+template <class Shape, int phases>
 void ExplicitStep<Shape, phases>::mapToNodes(State& state)
 {
     for (const int c : activeCells_) {
@@ -619,6 +642,14 @@ void ExplicitStep<Shape, phases>::mapToNodes(State& state)
         }
         for (const int c : voidCells_) {
             mapVoidToNodes(c);
+        }
+    }
+    if (state.points.loaded()) {
+        for (std::size_t l = 0; l < pointTraction_.size(); ++l) {
+            pointTraction_[l] = scene_.pointLoads[l].traction(state.time, loadedArea_[l]);
+        }
+        for (const int c : activeCells_) {
+            addPointLoads(state, c);
         }
     }
     if (scene_.conditions.hasTractions()) {

@@ -6,6 +6,7 @@
 #include "boundary/VelocityConditions.h"
 #include "constitutive/Material.h"
 #include "materialPoints/MaterialPoints.h"
+#include "materialPoints/PointLoads.h"
 #include "mesh/MeshMotion.h"
 
 #include <limits>
@@ -54,6 +55,7 @@ struct Scene
     VelocityConditions conditions;
     LiquidBoundary liquidBoundary;         ///< two phases: patches
     std::vector<FreeSurface> freeSurfaces; ///< two phases: surfaces of the soil under water or air
+    std::vector<PointLoad> pointLoads;
     MeshMotion motion;
     int movingBody = -1;            ///< index of the body that the mesh follows, or -1
     std::vector<double> referenceZ; ///< node heights of constant/polyMesh [m]

@@ -1,6 +1,6 @@
 #include "case/ControlDict.h"
 #include "materialPoints/InitialState.h"
-#include "materialPoints/SeedRegions.h"
+#include "materialPoints/PointLoads.h"
 #include "scene/SolutionDict.h"
 
 #include <gtest/gtest.h>
@@ -98,8 +98,18 @@ TEST(AnnotatedExamples, setMaterialPointsDictExplainsEveryKey)
     for (const std::string& type : initialStateTypes()) {
         expectExplained("setMaterialPointsDict", initialStateKeywords(type));
     }
+    for (const std::string& type : seedRegionTypes()) {
+        expectExplained("setMaterialPointsDict", loadedSurfaceKeywords(type));
+    }
     expectExplained("setMaterialPointsDict", seedRefinementKeywords());
     expectExplained("setMaterialPointsDict", seedVelocityKeywords());
+}
+
+TEST(AnnotatedExamples, pointLoadsExplainEveryKeyOfEveryType)
+{
+    for (const std::string& type : pointLoadTypes()) {
+        expectExplained("pointLoads", pointLoadKeywords(type));
+    }
 }
 
 TEST(AnnotatedExamples, velocityShowsEveryTypeOfCondition)

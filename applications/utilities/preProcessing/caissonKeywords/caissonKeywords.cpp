@@ -81,7 +81,8 @@ std::string allTables()
             table("velocity of a region", seedVelocityKeywords()) +
             tables("initialState", "initialState of type", initialStateTypes(), initialStateKeywords) +
             tables("porePressure", "porePressure of type", initialPorePressureTypes(),
-                   initialPorePressureKeywords);
+                   initialPorePressureKeywords) +
+            tables("loadedPoints", "loadedPoints of type", seedRegionTypes(), loadedSurfaceKeywords);
     text += "## 0/p\n\nOne sub-dictionary per patch in `boundaryField`, one per surface of the soil in "
             "`freeSurfaces`.\n\n" +
             tables("every patch", "patch of type", patchPressureTypes(), patchPressureKeywords) +
@@ -90,6 +91,8 @@ std::string allTables()
             tables("every material", "material with law", constitutiveLawTypes(), materialKeywords);
     text += "## constant/bodies\n\nOne sub-dictionary per body.\n\n" +
             tables("every body", "body of shape", bodyShapes(), bodyKeywords);
+    text += "## constant/pointLoads\n\nLoads on material points, one sub-dictionary each.\n\n" +
+            tables("every load", "load of type", pointLoadTypes(), pointLoadKeywords);
     text += "## constant/dynamicMeshDict\n\n" + table("dynamicMeshDict", meshMotionKeywords());
     text += "## constant/g\n\n" + table("g", gravityKeywords());
     text += "## system/suctionPressureDict\n\n";

@@ -83,6 +83,8 @@ std::span<const Keyword> setMaterialPointsKeywords()
          "what is filled: ( { type box; ... } ... ); where they overlap the later wins"},
         {"initialState", "dictionary", "", "", "stress of the points at the start"},
         {"porePressure", "dictionary", "-", "", "pore pressure of two-phase soil at the start"},
+        {"loadedPoints", "list", "-", "",
+         "points that the loads of constant/pointLoads act on: ( { load surcharge; type box; ... } ... )"},
     };
     return table;
 }
@@ -107,6 +109,12 @@ SeedInput readSeedInput(const fs::path& caseDirectory, const fs::path& dictionar
     if (fileExists(caseDirectory / "constant/bodies")) {
         collect(problems, [&] { input.bodies = readBodies(dictionary("constant/bodies"), problems); });
     }
+    if (meshIsThere && fileExists(caseDirectory / "constant/pointLoads")) {
+        collect(problems, [&] {
+            input.pointLoads =
+                readPointLoads(dictionary("constant/pointLoads"), input.mesh.geometry, problems);
+        });
+    }
     collect(problems, [&] {
         const Dictionary own = dictionary(dictionaryFile);
         const KeywordReader reader(own, setMaterialPointsKeywords(), dictionaryFile.filename().string(),
@@ -126,6 +134,10 @@ SeedInput readSeedInput(const fs::path& caseDirectory, const fs::path& dictionar
             if (const Dictionary* pore = reader.dictionary("porePressure")) {
                 input.porePressure = readInitialPorePressure(*pore, problems);
             }
+        }
+        if (meshIsThere && reader.has("loadedPoints")) {
+            input.loadedSurfaces = readLoadedSurfaces(reader.dictionaries("loadedPoints"), input.mesh,
+                                                      input.pointLoads, problems);
         }
     });
     problems.throwIfAny("case " + caseDirectory.string());

@@ -3,6 +3,7 @@
 #include "bodies/RigidBody.h"
 #include "case/ControlDict.h"
 #include "materialPoints/InitialState.h"
+#include "materialPoints/PointLoads.h"
 
 #include <filesystem>
 #include <optional>
@@ -21,6 +22,8 @@ struct SeedInput
     std::vector<SeedRegion> regions;
     InitialState initialState;
     std::optional<InitialPorePressure> porePressure; ///< of two-phase soil
+    std::vector<PointLoad> pointLoads;
+    std::vector<LoadedSurface> loadedSurfaces;
 };
 
 std::span<const Keyword> setMaterialPointsKeywords();

@@ -77,6 +77,17 @@ void printStress(const MaterialPoints& points)
     }
 }
 
+void printLoads(const SeedInput& input, const std::vector<LoadedPoints>& loaded)
+{
+    const bool axisymmetric = input.mesh.geometry == Geometry::axisymmetric;
+    for (std::size_t i = 0; i < loaded.size(); ++i) {
+        std::cout << text("Load %s: %zu points, area %.9g %s\n",
+                          input.pointLoads[input.loadedSurfaces[i].load].name.c_str(), loaded[i].points,
+                          (axisymmetric ? 2 * std::numbers::pi : 1) * loaded[i].area,
+                          axisymmetric ? "m2" : "m2/m");
+    }
+}
+
 void run(const fs::path& caseDirectory, const fs::path& dictionaryFile, bool dryRun)
 {
     const SeedInput input = readSeedInput(caseDirectory, dictionaryFile);
@@ -94,9 +105,11 @@ void run(const fs::path& caseDirectory, const fs::path& dictionaryFile, bool dry
     if (input.porePressure) {
         setInitialPorePressure(seeded, input.materials, *input.porePressure, input.gravity);
     }
+    const std::vector<LoadedPoints> loaded = loadPoints(seeded.points, mesh, input.loadedSurfaces, problems);
     problems.throwIfAny("case " + caseDirectory.string());
     printRegions(input, seeded);
     printStress(seeded.points);
+    printLoads(input, loaded);
 
     const fs::path folder = input.startDirectory / "lagrangian/materialPoints";
     if (dryRun) {
