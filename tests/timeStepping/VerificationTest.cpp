@@ -1,37 +1,9 @@
 // The solver against exact answers: waves, elastic and plastic equilibrium, friction, large deformation.
 
-#include "support/Simulation.h"
-#include "support/StructuredMesh.h"
-
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <cstdio>
-#include <numbers>
+#include "Verification.h"
 
 namespace caisson::testing {
 namespace {
-
-using std::numbers::pi;
-
-/// Dry elastic solid of density rho [kg/m3].
-std::string elasticSolid(double youngsModulus, double poissonsRatio, double density,
-                         const std::string& law = "linearElastic")
-{
-    return "law " + law + "; porosity 0.5; solidDensity " + std::to_string(2 * density) + "; weight dry; " +
-           "youngsModulus " + std::to_string(youngsModulus) + "; poissonsRatio " +
-           std::to_string(poissonsRatio) + ";";
-}
-
-double shearModulus(double youngsModulus, double poissonsRatio)
-{
-    return youngsModulus / (2 * (1 + poissonsRatio));
-}
-
-double pWaveModulus(double youngsModulus, double poissonsRatio)
-{
-    return youngsModulus * (1 - poissonsRatio) / ((1 + poissonsRatio) * (1 - 2 * poissonsRatio));
-}
 
 /// Lines from 0 to `extent` in n parts, and two more behind.
 std::vector<double> linesWithRoom(double extent, int n)
@@ -40,39 +12,6 @@ std::vector<double> linesWithRoom(double extent, int n)
     lines.push_back(extent * (n + 1) / n);
     lines.push_back(extent * (n + 2) / n);
     return lines;
-}
-
-/// Mean over the points, weighted with mass.
-template <class Value>
-double massMean(const MaterialPoints& points, const Value& value)
-{
-    double sum = 0;
-    double mass = 0;
-    for (std::size_t p = 0; p < points.size(); ++p) {
-        sum += points.mass[p] * value(p);
-        mass += points.mass[p];
-    }
-    return sum / mass;
-}
-
-/// Root of the sum of (value - exact)^2 over that of exact^2, weighted with volume.
-template <class Value, class Exact>
-double relativeError(const MaterialPoints& points, const Value& value, const Exact& exact)
-{
-    double error = 0;
-    double norm = 0;
-    for (std::size_t p = 0; p < points.size(); ++p) {
-        error += points.volume[p] * std::pow(value(p) - exact(p), 2);
-        norm += points.volume[p] * std::pow(exact(p), 2);
-    }
-    return std::sqrt(error / norm);
-}
-
-double order(double coarse, double fine) { return std::log2(coarse / fine); }
-
-void report(const char* what, double got, double tolerance)
-{
-    std::printf("%-60s %.3e  (tolerance %.1e)\n", what, got, tolerance);
 }
 
 // ---------------------------------------------------------------------------------------------------------
@@ -117,11 +56,9 @@ double columnError(int n)
 TEST(Column, swingsUnderSuddenGravityAsTheExactBarDoes)
 {
     const double coarse = columnError(20), fine = columnError(40);
-    report("column: mean settlement, n = 20", coarse, 5e-3);
-    report("column: mean settlement, n = 40", fine, 1.2e-3);
-    EXPECT_LT(coarse, 5e-3);
-    EXPECT_LT(fine, 1.2e-3);
-    EXPECT_GT(order(coarse, fine), 1.7);
+    expectNear("column: mean settlement: error, n = 20", coarse, 0, 5e-3);
+    expectNear("column: mean settlement: error, n = 40", fine, 0, 1.2e-3);
+    expectOrder("column: mean settlement: order", coarse, fine, 1.7);
 }
 
 /// Roots of M x J0(x) = 2 mu J1(x), M and mu per unit of M: radial modes of a free disk in plane strain.
@@ -183,11 +120,9 @@ double diskError(int n)
 TEST(Disk, swingsRadiallyAsTheExactModesDo)
 {
     const double coarse = diskError(20), fine = diskError(40);
-    report("disk: KE(t)/KE(0), n = 20", coarse, 5e-3);
-    report("disk: KE(t)/KE(0), n = 40", fine, 1.5e-3);
-    EXPECT_LT(coarse, 5e-3);
-    EXPECT_LT(fine, 1.5e-3);
-    EXPECT_GT(order(coarse, fine), 1.7);
+    expectNear("disk: KE(t)/KE(0): error, n = 20", coarse, 0, 5e-3);
+    expectNear("disk: KE(t)/KE(0): error, n = 40", fine, 0, 1.5e-3);
+    expectOrder("disk: KE(t)/KE(0): order", coarse, fine, 1.7);
 }
 
 // ---------------------------------------------------------------------------------------------------------
@@ -221,11 +156,9 @@ double cylinderError(int n)
 TEST(ThickCylinder, expandsUnderPressureAsLameSays)
 {
     const double coarse = cylinderError(8), fine = cylinderError(16);
-    report("thick cylinder: displacement, n = 8", coarse, 4e-3);
-    report("thick cylinder: displacement, n = 16", fine, 1e-3);
-    EXPECT_LT(coarse, 4e-3);
-    EXPECT_LT(fine, 1e-3);
-    EXPECT_GT(order(coarse, fine), 1.7);
+    expectNear("thick cylinder: displacement: error, n = 8", coarse, 0, 4e-3);
+    expectNear("thick cylinder: displacement: error, n = 16", fine, 0, 1e-3);
+    expectOrder("thick cylinder: displacement: order", coarse, fine, 1.7);
 }
 
 /// A column that a traction compresses: uniform stress, linear displacement, both exact on any mesh.
@@ -257,7 +190,7 @@ TEST(Traction, compressesAColumnExactly)
 
 /// V18: bar in its first mode, v = v0 sin(b1 z) cos(w1 t); error of the velocity of the centre of mass over
 /// two periods, and drift of the energy over ten.
-void swingBar(double v0, double tolerance, double energyTolerance)
+void swingBar(double v0, int rows, double tolerance, double energyTolerance)
 {
     const double length = 25, young = 100, rho = 1;
     Simulation simulation;
@@ -265,7 +198,7 @@ void swingBar(double v0, double tolerance, double energyTolerance)
     const int solid = simulation.addMaterial("bar", elasticSolid(young, 0, rho));
     simulation.setConditions(
         "left { type slip; } right { type slip; } bottom { type slip; } top { type zeroGradient; }");
-    simulation.fill(solid, 2, 2, [&](double, double z) { return z < length; });
+    simulation.fill(solid, 2, rows, [&](double, double z) { return z < length; });
     const double wave = pi / (2 * length), frequency = wave * std::sqrt(young / rho);
     simulation.setVelocity([&](double, double z) {
         return std::array<double, 2>{0, v0 * std::sin(wave * z)};
@@ -290,74 +223,17 @@ void swingBar(double v0, double tolerance, double energyTolerance)
         first += i <= 100 ? energy / 100 : 0;
         last += i > 900 ? energy / 100 : 0;
     }
-    report("bar: velocity of the centre of mass over two periods", std::sqrt(error / norm), tolerance);
-    report("bar: drift of the energy over ten periods", last / first - 1, energyTolerance);
-    EXPECT_LT(std::sqrt(error / norm), tolerance);
-    EXPECT_LT(std::abs(last / first - 1), energyTolerance);
+    expectNear("bar: error of the velocity of the centre of mass", std::sqrt(error / norm), 0, tolerance);
+    expectNear("bar: drift of the energy over ten periods", last / first - 1, 0, energyTolerance);
 }
 
-TEST(Bar, swingsWithoutCrossingsAsTheExactOne) { swingBar(0.1, 0.01, 0.01); }
-// Points that cross lines of the mesh make noise, and FLIP keeps it: the energy grows by 3.2 % in ten
-// periods, where 1 % is wanted. The bound holds what there is.
-TEST(Bar, swingsThroughCellsAsTheExactOne) { swingBar(0.75, 0.05, 0.05); }
+TEST(Bar, swingsWithoutCrossingsAsTheExactOne) { swingBar(0.1, 2, 0.01, 0.01); }
 
-// ---------------------------------------------------------------------------------------------------------
-
-/// Manufactured solution, after Wallstedt & Guilkey 2008: a neo-Hookean disk in plane strain moves as
-/// r = R + A sin(w t) R (1 - R^2), held at its rim. The body force that this needs is given to the points.
-/// Error of the displacement at a tenth of the period. Later an error of the order of the strain remains that
-/// no refinement removes, with linear shape functions: 3e-3 at 3/4 of the period for A = 0.005, 2e-2 for A =
-/// 0.1.
-double manufacturedError(int n, double amplitude)
-{
-    const double young = 100, poisson = 0.25, rho = 2, h = 1.0 / n;
-    const double mu = shearModulus(young, poisson), lambda = pWaveModulus(young, poisson) - 2 * mu;
-    Simulation simulation;
-    simulation.state.mesh = structuredMesh(evenLines(0, 1, n), evenLines(0, h, 1), Geometry::axisymmetric);
-    const int solid = simulation.addMaterial("solid", elasticSolid(young, poisson, rho, "neoHookean"));
-    simulation.setConditions("right { type slip; } bottom { type slip; } top { type slip; }");
-    simulation.fill(solid, 2, 2);
-    const double c = std::sqrt((lambda + 2 * mu) / rho), w = 2 * c;
-    simulation.setVelocity([&](double R, double) {
-        return std::array<double, 2>{amplitude * w * R * (1 - R * R), 0};
-    });
-    simulation.start();
-    MaterialPoints& points = simulation.state.points;
-    const double duration = 0.2 * pi / w;
-    const long steps = std::lround(duration / (0.05 * h / c));
-    const double dt = duration / static_cast<double>(steps);
-    for (long i = 0; i < steps; ++i) {
-        // The force that takes the velocity from t to t + dt is the one of the middle of the step.
-        const double f = amplitude * std::sin(w * (simulation.state.time + 0.5 * dt));
-        for (std::size_t p = 0; p < points.size(); ++p) {
-            const double R = points.initialR[p], U = R * (1 - R * R);
-            const double r = R + f * U, d = 1 + f * (1 - 3 * R * R), dd = -6 * f * R;
-            const double hoop = r / R, logJ = std::log(d * hoop);
-            const double gradient = (lambda / d) * (dd / d + d / r - 1 / R - logJ * dd / d) +
-                                    mu * dd * (1 + 1 / (d * d)); // of P_rr
-            const double Prr = lambda * logJ / d + mu * (d - 1 / d);
-            const double Ptt = lambda * logJ / hoop + mu * (hoop - 1 / hoop);
-            const double force = -w * w * f * U - (gradient + (Prr - Ptt) / R) / rho;
-            points.vr[p] += dt * force;
-            points.r[p] -= 0.5 * dt * dt * force; // the place moves with the mean of old and new velocity
-        }
-        simulation.step->advance(simulation.state, dt);
-    }
-    const double f = amplitude * std::sin(w * simulation.state.time);
-    return relativeError(
-        points, [&](std::size_t p) { return points.r[p] - points.initialR[p]; },
-        [&](std::size_t p) { return f * points.initialR[p] * (1 - std::pow(points.initialR[p], 2)); });
-}
-
-TEST(ManufacturedDisk, convergesWithTheSquareOfTheCellSize)
-{
-    const double coarse = manufacturedError(16, 0.005), fine = manufacturedError(32, 0.005);
-    report("manufactured disk: displacement, n = 16", coarse, 1.5e-2);
-    report("manufactured disk: displacement, n = 32", fine, 4e-3);
-    EXPECT_LT(coarse, 1.5e-2);
-    EXPECT_LT(fine, 4e-3);
-    EXPECT_GT(order(coarse, fine), 1.7);
-}
+// A filled cell counts whole however many points it holds at the moment, so points that cross lines of the
+// mesh change the energy: by 3.2 % in ten periods with two rows in a cell, 1.4 % with four, 0.2 % with six,
+// whatever the time step. Wanted is 1 %. (Integrated at the points it falls by 62 %.)
+TEST(Bar, swingsThroughCellsAsTheExactOne) { swingBar(0.75, 6, 0.05, 0.01); }
+TEST(Bar, swingsThroughCellsOfTwoRowsOfPointsWithinAFewPercent) { swingBar(0.75, 2, 0.05, 0.04); }
 
 // ---------------------------------------------------------------------------------------------------------
 
@@ -402,8 +278,7 @@ TEST(BlockOnIncline, slidesWithTheExactAcceleration)
     simulation.run(1.0, 0.5);
     const double acceleration = (velocity() - before) / 0.6;
     const double exact = 9.81 * (std::sin(pi / 6) - 0.3 * std::cos(pi / 6));
-    report("block on incline: acceleration", acceleration / exact - 1, 5e-3);
-    EXPECT_NEAR(acceleration / exact, 1, 5e-3);
+    expectNear("block on incline: acceleration [m/s2]", acceleration, exact, 5e-3 * exact);
 }
 
 TEST(BlockOnIncline, sticksWhereFrictionHoldsIt)
@@ -415,8 +290,7 @@ TEST(BlockOnIncline, sticksWhereFrictionHoldsIt)
     const double early = slideOfBlock(simulation);
     simulation.run(0.8, 0.5);
     const double drift = slideOfBlock(simulation) - early;
-    report("block on incline: drift while it sticks [m]", drift, 1e-5);
-    EXPECT_NEAR(drift, 0, 1e-5);
+    expectNear("block on incline: drift while it sticks [m]", drift, 0, 1e-5);
 }
 
 // ---------------------------------------------------------------------------------------------------------
@@ -480,17 +354,14 @@ PullOut pullOut(double displacement, int n)
 TEST(PullOut, slipsAtTheFrictionOfTheRadialStress)
 {
     const PullOut slip = pullOut(2, 8);
-    report("pull-out, slip: tau/(mu p) - 1", slip.shear - 1, 1e-2);
-    report("pull-out, slip: displacement", slip.profileError, 1e-2);
-    EXPECT_NEAR(slip.shear, 1, 1e-2);
-    EXPECT_LT(slip.profileError, 1e-2);
+    expectNear("pull-out, slip: tau/(mu p)", slip.shear, 1, 1e-2);
+    expectNear("pull-out, slip: error of the displacement", slip.profileError, 0, 1e-2);
 }
 
 TEST(PullOut, carriesTheElasticShearBeforeSlip)
 {
     const PullOut stick = pullOut(0.5, 8);
-    report("pull-out, stick: displacement", stick.profileError, 1e-2);
-    EXPECT_LT(stick.profileError, 1e-2);
+    expectNear("pull-out, stick: error of the displacement", stick.profileError, 0, 1e-2);
 }
 
 // ---------------------------------------------------------------------------------------------------------
@@ -544,13 +415,15 @@ TEST(Triaxial, failsAtTheExactStressRatioAndDilates)
     const double compression = heightBefore - std::log(simulation.state.bodies[0].tipLevel);
     const double sinPhi = std::sin(38 * pi / 180), sinPsi = std::sin(pi / 180);
     const double rate = -dilatation / compression, exactRate = -2 * sinPsi / (1 - sinPsi);
-    report("triaxial: d eps_v/d eps_1 over the exact one - 1", rate / exactRate - 1, 1e-2);
-    EXPECT_NEAR(rate, exactRate, 0.01 * std::abs(exactRate));
+    expectNear("triaxial: d eps_v/d eps_1", rate, exactRate, 0.01 * std::abs(exactRate));
     for (std::size_t p = 0; p < points.size(); ++p) {
+        const std::string at = "triaxial, point " + std::to_string(p);
         const double ratio = points.stress[1][p] / points.stress[0][p];
-        EXPECT_NEAR(ratio, (1 + sinPhi) / (1 - sinPhi), 1e-6);
-        EXPECT_NEAR(points.stress[0][p] / -confinement, 1, 1e-3);
-        EXPECT_NEAR(points.stress[2][p] / points.stress[0][p], 1, 1e-6);
+        expectNear((at + ": sigma_1/sigma_3").c_str(), ratio, (1 + sinPhi) / (1 - sinPhi), 1e-6);
+        expectNear((at + ": radial stress [Pa]").c_str(), points.stress[0][p], -confinement,
+                   1e-3 * confinement);
+        expectNear((at + ": hoop over radial stress").c_str(), points.stress[2][p] / points.stress[0][p], 1,
+                   1e-6);
     }
 }
 
