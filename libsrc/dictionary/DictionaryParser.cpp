@@ -12,7 +12,8 @@ namespace caisson {
 
 namespace {
 
-constexpr std::size_t mostSpent = 5'000'000; // tokens and entries that macros bring in
+constexpr std::size_t mostSpent = 5'000'000; // tokens that macros bring in
+constexpr std::size_t ofEntry = 20;          // what an entry costs, in tokens
 
 /// The number after `name` in the header's arch "LSB;label=32;scalar=64", in bytes.
 std::size_t bytesOf(const std::string& arch, std::string_view name, std::size_t missing)
@@ -42,7 +43,7 @@ void DictionaryParser::spend(const SourceLocation& where, std::size_t amount)
 {
     spent_ += amount;
     if (spent_ > mostSpent) {
-        fail(where, "macros bring in more than five million values", "do they copy themselves?");
+        fail(where, "macros bring in more than five million values", "do they double themselves?");
     }
 }
 
@@ -312,7 +313,7 @@ void DictionaryParser::merge(Dictionary& into, const Dictionary& from, const Sou
                              InputMode mode)
 {
     for (const Entry& entry : from.entries_) {
-        spend(where, 1 + entry.tokens.size());
+        spend(where, ofEntry + entry.tokens.size());
         Entry copied = entry;
         if (entry.dictionary) {
             copied.dictionary = copy(*entry.dictionary, into, where);
@@ -334,7 +335,7 @@ std::shared_ptr<Dictionary> DictionaryParser::copy(const Dictionary& from, Dicti
     auto result = std::make_shared<Dictionary>(from);
     result->parent_ = &parent;
     for (Entry& entry : result->entries_) {
-        spend(where, 1 + entry.tokens.size());
+        spend(where, ofEntry + entry.tokens.size());
         if (entry.dictionary) {
             entry.dictionary = copy(*entry.dictionary, *result, where);
         }

@@ -402,19 +402,29 @@ std::vector<std::string> KeywordReader::words(std::string_view key) const
         return keyword.defaultValue == optionalKey ? result : split(keyword.defaultValue);
     }
     std::span<const Token> tokens = found->tokens;
+    std::optional<double> count; // may stand before a list
     if (tokens.size() > 1 && tokens[0].isInteger && isPunctuation(tokens[1], '(')) {
-        tokens = tokens.subspan(1); // the count that may stand before a list
+        count = tokens[0].number;
+        tokens = tokens.subspan(1);
     }
-    if (found->dictionary) {
-        problem(key, "'" + std::string(key) + "' is '{...}', not a list of words");
+    if (tokens.empty()) {
+        problem(key, "'" + std::string(key) + "' is '" + spell(*found) + "', not a list of words",
+                "write (a b c)");
+    }
+    if (tokens.size() > 1 && isPunctuation(tokens.front(), '(') && isPunctuation(tokens.back(), ')')) {
+        tokens = tokens.subspan(1, tokens.size() - 2);
     }
     for (const Token& token : tokens) {
         if (token.kind == Token::Kind::word || token.kind == Token::Kind::string) {
             checkWord(*found, keyword, token.text, problems_);
-            result.push_back(token.text);
-        } else if (!isPunctuation(token, '(') && !isPunctuation(token, ')')) {
+        } else {
             problem(key, "'" + std::string(key) + "': '" + token.text + "' is not a word");
         }
+        result.push_back(token.text);
+    }
+    if (count && *count != static_cast<double>(result.size())) {
+        problem(key, "'" + std::string(key) + "' has " + std::to_string(result.size()) + " words, not " +
+                         found->tokens[0].text);
     }
     return result;
 }

@@ -25,6 +25,11 @@ std::optional<std::string> readTextFile(const std::filesystem::path& file)
         text.append(buffer, read);
     }
     const bool complete = gzclose(stream) == Z_OK; // a compressed file that was cut short ends in silence
+    constexpr std::string_view byteOrderMark =
+        "\xEF\xBB\xBF"; // of UTF-8, as some editors and spreadsheets write it
+    if (text.starts_with(byteOrderMark)) {
+        text.erase(0, byteOrderMark.size());
+    }
     return read == 0 && complete ? std::optional(std::move(text)) : std::nullopt;
 }
 

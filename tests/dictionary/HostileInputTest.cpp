@@ -55,6 +55,8 @@ TEST(HostileInput, macrosThatDoubleThemselvesAreRefused)
     EXPECT_NE(refusedSoon(text).find("macros bring in more than five million values"), std::string::npos);
     EXPECT_EQ(refusedSoon("a { x 1; }" + times(60, " b { c $a; d $a; } a $b;")),
               "file:1: macros bring in more than five million values");
+    EXPECT_EQ(refusedSoon(times(20, "a $.; b $.; c $.;")),
+              "file:1: macros bring in more than five million values");
     EXPECT_NE(refusedSoon("a x;" + times(60, "a #word \"$a$a\";\n")).find("a million characters"),
               std::string::npos);
 }
@@ -62,6 +64,8 @@ TEST(HostileInput, macrosThatDoubleThemselvesAreRefused)
 TEST(HostileInput, dictionariesCopiedIntoThemselvesAreRefused)
 {
     EXPECT_EQ(refusedSoon("a { x 1; }" + times(1000, " a { x $:a; }")),
+              "file:1: macros bring in more than five million values");
+    EXPECT_EQ(refusedSoon(times(150, "a {") + "x 1;" + times(150, "}") + times(100, "b {") + "$:a;"),
               "file:1: dictionaries are nested too deeply");
 }
 

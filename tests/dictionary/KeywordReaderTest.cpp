@@ -189,12 +189,19 @@ TEST(KeywordReader, listsInAllSpellingsAreRead)
 TEST(KeywordReader, wordListsTakeWordsOnly)
 {
     const auto report = [](const std::string& value) {
-        Reading reading("density 1; names " + value + ";");
+        Reading reading("density 1; names " + value + (value.ends_with('}') ? "" : ";"));
         static_cast<void>(reading.reader().words("names"));
         return reading.report();
     };
     EXPECT_EQ(report("2(sand clay)"), "");
     EXPECT_EQ(report("(sand 3)"), "1: 'names': '3' is not a word | \n");
+    EXPECT_EQ(report("sand"), "");
+    EXPECT_EQ(report("()"), "");
+    EXPECT_EQ(report("3(sand clay)"), "1: 'names' has 2 words, not 3 | \n");
+    EXPECT_EQ(report("(sand) (clay)"),
+              "1: 'names': ')' is not a word | \n1: 'names': '(' is not a word | \n");
+    EXPECT_EQ(report(""), "1: 'names' is '', not a list of words | write (a b c)\n");
+    EXPECT_EQ(report("{ sand 1; }"), "1: 'names' is '{...}', not a list of words | write (a b c)\n");
     EXPECT_EQ(report("(sand cly)"),
               "1: unknown word 'cly' for names | did you mean 'clay'?  valid: clay sand\n");
 }

@@ -181,6 +181,20 @@ TEST(Syntax, whatIsWrongIsNamedWithItsLine)
                                     "    a keyword in quotes is a pattern\n");
 }
 
+TEST(Syntax, filesOfOtherSystemsAreRead)
+{
+    const TemporaryDirectory directory;
+    const std::filesystem::path file =
+        directory.write("file", "\xEF\xBB\xBF"
+                                "a 1;\r\n#if 1\r\nb \"x y\";\r\n#endif\r\n#include \"more\"\r\n");
+    directory.write("more", "c (1\r\n2);\r\n");
+    const Dictionary dictionary = readDictionary(file, directory.path());
+    ASSERT_EQ(dictionary.entries().size(), 3U);
+    EXPECT_EQ(dictionary.find("a")->tokens.at(0).number, 1);
+    EXPECT_EQ(dictionary.find("b")->tokens.at(0).text, "x y");
+    EXPECT_EQ(dictionary.find("c")->tokens.size(), 4U);
+}
+
 TEST(Syntax, aMissingFileIsNamed)
 {
     try {
