@@ -5,15 +5,28 @@
 
 namespace caisson {
 
+namespace {
+
+/// Half a cosine: no jump of velocity or acceleration, which would send a wave through the soil.
+double rampShare(double time, double ramp)
+{
+    return (ramp > 0 && time < ramp) ? 0.5 * (1 - std::cos(M_PI * time / ramp)) : 1.0;
+}
+
+} // namespace
+
+double RigidBody::drivingLoad(double time) const
+{
+    return rampShare(time, ramp) * submergedWeight + (load ? load->value(time) : 0);
+}
+
 double RigidBody::prescribedVelocity(double time) const
 {
     if (!penetrationRate) {
         return 0;
     }
     const double rate = penetrationRate->value(variable == Variable::time ? time : penetration());
-    // Half a cosine: no jump of velocity or acceleration, which would send a wave through the soil.
-    const double share = (ramp > 0 && time < ramp) ? 0.5 * (1 - std::cos(M_PI * time / ramp)) : 1.0;
-    return -rate * share;
+    return -rate * rampShare(time, ramp);
 }
 
 double RigidBody::innerRadius() const
@@ -109,9 +122,19 @@ constexpr Keyword commonKeywords[] = {
     {"friction", "-", "0", "[0, inf)", "friction coefficient mu = tan(delta) of the interface"},
     {"adhesion", "Pa", "0", "[0, inf)", "adhesion of the interface"},
     {"tipCorner", "word", "rounded", "full shared rounded", "treatment of the corner nodes of the tip"},
+    {"motion", "word", "prescribed", "prescribed load",
+     "prescribed: at penetrationRate; load: by its weight, load and suction against the soil's reaction"},
     {"penetrationRate", "Function1", "-", "", "downward velocity [m/s]; the body is at rest without it"},
     {"variable", "word", "time", "time penetration", "what penetrationRate is a function of [s or m]"},
-    {"ramp", "s", "0.05", "[0, inf)", "time over which the rate rises from rest"},
+    {"ramp", "s", "0.05", "[0, inf)", "time over which the rate, or the weight, rises from rest"},
+    {"submergedWeight", "N", "-", "[0, inf)",
+     "weight of the whole body under water (plane strain: per metre); motion load needs it"},
+    {"mass", "kg", "-", "(0, inf)",
+     "inertia of the whole body, water that moves with it included; motion load needs it"},
+    {"restTime", "s", "0", "[0, inf)",
+     "motion load: the run ends where the body moves less than restPenetration in this time; 0 is never"},
+    {"restPenetration", "m", "0.001", "(0, inf)", "see restTime"},
+    {"load", "Function1", "-", "", "downward force besides the weight [N], of time; motion load only"},
 };
 constexpr Keyword caissonKeywords[] = {
     {"outerRadius", "m", "", "(0, inf)", "outer radius of the skirt"},
@@ -119,6 +142,7 @@ constexpr Keyword caissonKeywords[] = {
     {"skirtLength", "m", "", "(0, inf)", "length of the skirt"},
     {"lid", "m", "-", "(0, inf)", "height of the lid's lower face above the tip; no lid without it"},
     {"lidThickness", "m", "0.1", "(0, inf)", "thickness of the lid"},
+    {"stopAtLid", "flag", "yes", "", "whether the run ends where the soil meets the lid"},
 };
 constexpr Keyword polygonKeywords[] = {
     {"profile", "list", "", "", "corners ((r z) (r z) ...) of the closed profile, any reference height [m]"},
@@ -169,6 +193,33 @@ std::vector<RigidBody> readBodies(const Dictionary& bodies, InputProblems& probl
         body.variable = reader.word("variable") == "penetration" ? RigidBody::Variable::penetration
                                                                  : RigidBody::Variable::time;
         body.ramp = reader.number("ramp");
+        body.loadControlled = reader.word("motion") == "load";
+        for (const char* key : {"submergedWeight", "mass"}) {
+            if (body.loadControlled && !reader.has(key)) {
+                reader.problem(key, "'" + entry.keyword + "' has motion load, but no " + key,
+                               std::string(key) == "mass" ? "the weight over g, at least" : "");
+            } else if (!body.loadControlled && reader.has(key)) {
+                reader.problem(key, std::string(key) + " of '" + entry.keyword + "' has no effect",
+                               "motion load;");
+            }
+        }
+        if (body.loadControlled) {
+            body.submergedWeight = reader.has("submergedWeight") ? reader.number("submergedWeight") : 0;
+            body.mass = reader.has("mass") ? reader.number("mass") : 1;
+        }
+        body.restTime = reader.number("restTime");
+        body.restPenetration = reader.number("restPenetration");
+        if (reader.has("load")) {
+            body.load = readFunction1(*entry.dictionary, "load", problems);
+            if (!body.loadControlled) {
+                reader.problem("load", "load of '" + entry.keyword + "' has no effect", "motion load;");
+            }
+        }
+        if (body.loadControlled && reader.has("penetrationRate")) {
+            reader.problem("penetrationRate",
+                           "'" + entry.keyword + "' moves by its loads: penetrationRate has no effect",
+                           "motion prescribed; or leave penetrationRate out");
+        }
         if (reader.has("penetrationRate")) {
             body.penetrationRate = readFunction1(*entry.dictionary, "penetrationRate", problems);
         }
@@ -190,6 +241,7 @@ std::vector<RigidBody> readBodies(const Dictionary& bodies, InputProblems& probl
                 body.profile = profileFromPolygon(corners);
             }
         } else {
+            body.stopAtLid = reader.flag("stopAtLid");
             const double outerRadius = reader.number("outerRadius");
             const double wallThickness = reader.number("wallThickness");
             body.referenceLength = reader.number("skirtLength");

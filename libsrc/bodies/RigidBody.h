@@ -4,6 +4,7 @@
 #include "mesh/BackgroundMesh.h"
 
 #include <array>
+#include <cmath>
 #include <memory>
 #include <string>
 #include <vector>
@@ -26,7 +27,7 @@ struct ProfileEdge
 };
 
 /// A rigid body of revolution (axisymmetric) or prism (plane strain), given by its profile in (r, z) relative
-/// to its lowest point, moving vertically at a prescribed rate.
+/// to its lowest point, moving vertically at a prescribed rate, or under loads against the soil's reaction.
 struct RigidBody
 {
     std::string name;
@@ -43,14 +44,31 @@ struct RigidBody
     enum class Variable { time, penetration };
     Variable variable = Variable::time;
     std::shared_ptr<const Function1> penetrationRate; ///< downward positive [m/s]; none: at rest
-    double ramp = 0;                                  ///< time over which the rate rises from rest [s]
+    double ramp = 0; ///< time over which the rate, or the weight, rises from rest [s]
+
+    bool loadControlled = false;           ///< the loads below drive it, and penetrationRate does not
+    double submergedWeight = 0;            ///< of the whole body [N], or per metre in plane strain
+    double mass = 0;                       ///< its inertia, likewise [kg]
+    std::shared_ptr<const Function1> load; ///< downward besides its weight, of time [N]; none: zero
+    /// A loaded body is at rest, and the run ends, where it moves less than restPenetration [m] in restTime
+    /// [s]; 0: it goes on.
+    double restTime = 0, restPenetration = 0;
+    bool stopAtLid = true;      ///< whether the run ends where the soil meets the lid
     double referenceLength = 0; ///< length that depths are normalised with in output (the skirt length) [m]
 
     [[nodiscard]] double penetration() const { return surfaceLevel - tipLevel; }
     /// Prescribed velocity (upward positive) at a time [s] and the present penetration.
     [[nodiscard]] double prescribedVelocity(double time) const;
+    [[nodiscard]] bool moves() const { return loadControlled || penetrationRate != nullptr; }
+    /// Weight and load at a time [N], downward positive; the weight sets in over the ramp.
+    [[nodiscard]] double drivingLoad(double time) const;
     /// Radius of the space that the body encloses: of its inner face; 0 where it has none [m].
     [[nodiscard]] double innerRadius() const;
+    /// Cross-section of that space [m2], or its width from the plane of symmetry [m].
+    [[nodiscard]] double enclosedArea(bool axisymmetric) const
+    {
+        return axisymmetric ? M_PI * innerRadius() * innerRadius() : innerRadius();
+    }
     /// Whether (r, z) is inside the body now.
     [[nodiscard]] bool contains(double r, double z) const;
 };

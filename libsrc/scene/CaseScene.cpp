@@ -230,6 +230,7 @@ std::map<std::string, std::vector<double>> keptNumbers(const State& state)
         numbers.insert(numbers.end(), reaction.verticalImpulse.begin(), reaction.verticalImpulse.end());
         numbers.insert(numbers.end(), reaction.radialImpulse.begin(), reaction.radialImpulse.end());
         numbers.push_back(reaction.waterImpulse);
+        numbers.push_back(reaction.force);
     }
     return kept;
 }
@@ -309,7 +310,7 @@ CaseScene readCaseScene(const std::filesystem::path& caseDirectory, const std::f
         }
     }
     for (std::size_t b = 0; b < state.bodies.size(); ++b) {
-        if (state.bodies[b].penetrationRate && static_cast<int>(b) != scene.movingBody) {
+        if (state.bodies[b].moves() && static_cast<int>(b) != scene.movingBody) {
             problems.add({"constant/bodies", 0},
                          "body '" + state.bodies[b].name + "' moves, but the mesh does not follow it",
                          "constant/dynamicMeshDict: type followBody; body " + state.bodies[b].name + "; ...");
@@ -338,7 +339,7 @@ CaseScene readCaseScene(const std::filesystem::path& caseDirectory, const std::f
     if (restarted) {
         for (std::size_t b = 0; b < state.bodies.size(); ++b) {
             const auto found = kept.find("body_" + state.bodies[b].name);
-            if (found == kept.end() || found->second.size() != 5 + 2 * surfaceParts) {
+            if (found == kept.end() || found->second.size() != 6 + 2 * surfaceParts) {
                 problems.add(
                     {start.filename().string() + "/uniform/time", 0},
                     "nothing is kept of body '" + state.bodies[b].name + "'",
@@ -353,7 +354,8 @@ CaseScene readCaseScene(const std::filesystem::path& caseDirectory, const std::f
             std::copy_n(found->second.begin() + 4, surfaceParts, reaction.verticalImpulse.begin());
             std::copy_n(found->second.begin() + 4 + surfaceParts, surfaceParts,
                         reaction.radialImpulse.begin());
-            reaction.waterImpulse = found->second.back();
+            reaction.waterImpulse = found->second[4 + 2 * surfaceParts];
+            reaction.force = found->second.back();
         }
         if (scene.movingBody >= 0) {
             const RigidBody& body = state.bodies[scene.movingBody];

@@ -78,6 +78,7 @@ private:
 
     void updateCells(const State& state);
     void classifyCells(State& state);
+    void moveBodies(State& state, double dt);
     void staggerStrain(State& state, double dt);
     void mapToNodes(State& state);
     void mapCellToNodes(State& state, int c);
@@ -85,6 +86,8 @@ private:
     void solveNodes(State& state, double dt);
     void findFreeSurfaces(const State& state);
     void prepareLiquid(const State& state);
+    void updateSurfacePressures(const State& state);
+    [[nodiscard]] double suction(const RigidBody& body) const;
     void mapLiquidToNodes(const State& state, int c);
     void mapVoidToNodes(int c);
     void solveTwoPhaseNode(int i, const Corner& solid, double dt);
@@ -118,6 +121,7 @@ private:
     std::vector<int> cellNodes_; ///< corners in the order that Shape wants
     CompressedRows nodeCorners_; ///< around each node: cell * corners + corner
     std::vector<BodySurface> surfaces_;
+    std::vector<double> impulseBefore_; ///< per body: its vertical impulse before the step
     std::vector<unsigned char>
         contactNode_;                   ///< on a body: local damping would change normal force and friction
     std::vector<unsigned char> inside_; ///< per cell: inside a body

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 namespace caisson {
 
@@ -147,6 +148,7 @@ ExplicitStep<Shape, phases>::ExplicitStep(const Scene& scene, State& state)
     state.filled.resize(cells, 0);
     state.cellDivergence.resize(cells, 0);
     state.reactions.resize(state.bodies.size());
+    impulseBefore_.resize(state.bodies.size());
     for (auto& component : strain_) {
         component.resize(state.points.size());
     }
@@ -374,12 +376,18 @@ void ExplicitStep<Shape, phases>::advance(State& state, double dt)
     if (state.step == 0) {
         staggerStrain(state, dt);
     }
+    if constexpr (twoPhase) {
+        updateSurfacePressures(state);
+    }
+    moveBodies(state, dt);
     for (std::size_t b = 0; b < state.bodies.size(); ++b) {
-        state.bodies[b].velocity = state.bodies[b].prescribedVelocity(state.time + dt);
-        state.reactions[b].duration += dt;
+        impulseBefore_[b] = state.reactions[b].totalVerticalImpulse();
     }
     mapToNodes(state);
     solveNodes(state, dt);
+    for (std::size_t b = 0; b < state.bodies.size(); ++b) {
+        state.reactions[b].force = (state.reactions[b].totalVerticalImpulse() - impulseBefore_[b]) / dt;
+    }
     mapToPoints(state, dt);
     updateStress(state);
     moveBodiesAndMesh(state, dt);
@@ -387,6 +395,26 @@ void ExplicitStep<Shape, phases>::advance(State& state, double dt)
     state.time += dt;
     state.timeStep = dt;
     ++state.step;
+}
+
+/// Velocities of the bodies: as prescribed, or by Newton's law with the reaction of the last step.
+template <class Shape, int phases>
+void ExplicitStep<Shape, phases>::moveBodies(State& state, double dt)
+{
+    const double whole = axisymmetric ? 2 * std::numbers::pi : 1.0;
+    for (std::size_t b = 0; b < state.bodies.size(); ++b) {
+        RigidBody& body = state.bodies[b];
+        state.reactions[b].duration += dt;
+        if (!body.loadControlled) {
+            body.velocity = body.prescribedVelocity(state.time + dt);
+            continue;
+        }
+        double force = whole * state.reactions[b].force - body.drivingLoad(state.time);
+        if constexpr (twoPhase) {
+            force -= suction(body) * body.enclosedArea(axisymmetric);
+        }
+        body.velocity += dt * force / body.mass;
+    }
 }
 
 /// Stresses are half a step ahead of the velocities that they accelerate (leap-frog). At the start both are

@@ -35,7 +35,7 @@ void ExplicitStep<Shape, phases>::findFreeSurfaces(const State& state)
 }
 
 template <class Shape, int phases>
-void ExplicitStep<Shape, phases>::prepareLiquid(const State& state)
+void ExplicitStep<Shape, phases>::updateSurfacePressures(const State& state)
 {
     for (std::size_t s = 0; s < surfacePressure_.size(); ++s) {
         const FreeSurface& surface = scene_.freeSurfaces[s];
@@ -51,6 +51,28 @@ void ExplicitStep<Shape, phases>::prepareLiquid(const State& state)
         }
         surfacePressure_[s] = pressure;
     }
+}
+
+/// What the water within a body pulls it down by: the pressure outside less that inside [Pa].
+template <class Shape, int phases>
+double ExplicitStep<Shape, phases>::suction(const RigidBody& body) const
+{
+    double inside = 0;
+    double outside = 0;
+    for (std::size_t s = surfacePressure_.size(); s-- > 0;) { // the first that holds counts
+        const FreeSurface& surface = scene_.freeSurfaces[s];
+        if (surface.region == FreeSurface::Region::all) {
+            inside = outside = surfacePressure_[s];
+        } else if (surface.body == body.name) {
+            (surface.region == FreeSurface::Region::inside ? inside : outside) = surfacePressure_[s];
+        }
+    }
+    return outside - inside;
+}
+
+template <class Shape, int phases>
+void ExplicitStep<Shape, phases>::prepareLiquid(const State& state)
+{
     for (BodySurface& surface : surfaces_) {
         updateAreas(surface, state.mesh);
         for (const SurfaceNode& contact : surface.nodes) {

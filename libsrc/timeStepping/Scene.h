@@ -69,8 +69,19 @@ struct BodyReaction
     std::array<double, surfaceParts> verticalImpulse{};
     std::array<double, surfaceParts> radialImpulse{};
     double waterImpulse = 0; ///< of the excess pore pressure, vertical; not in those above
+    double force = 0;        ///< vertical, of the last step, pore pressure included [N/rad or N/m]
     double duration = 0;     ///< of the collection [s]
     double work = 0;         ///< done by the body on the soil since the start [J/rad or J/m]
+
+    /// Of soil and water.
+    [[nodiscard]] double totalVerticalImpulse() const
+    {
+        double sum = waterImpulse;
+        for (const double part : verticalImpulse) {
+            sum += part;
+        }
+        return sum;
+    }
 
     /// Forgets what was collected; the work stays.
     void restartCollection()

@@ -303,5 +303,43 @@ TEST(Skirt, isResistedAndKeepsPointsOutOfItsWall)
     EXPECT_GT(reaction.work, 0);
 }
 
+/// A plate of weight W on an elastic column: its rest is where the column carries it, and the reaction is W.
+TEST(LoadControl, aPlateComesToRestWhereTheSoilCarriesItsWeight)
+{
+    const double weight = 1e4, modulus = 1e7; // per metre on 0.2 m, Poisson's ratio 0
+    Simulation simulation;
+    simulation.state.mesh =
+        structuredMesh(evenLines(0, 0.2, 2), evenLines(0, 1.2, 12), Geometry::planeStrain);
+    const int soil = simulation.addMaterial("soil", "law linearElastic; weight dry; solidDensity 2000; "
+                                                    "youngsModulus 1e7; poissonsRatio 0;");
+    simulation.setConditions("left { type slip; } right { type slip; } bottom { type slip; } "
+                             "top { type zeroGradient; }");
+    RigidBody plate;
+    plate.name = "plate";
+    plate.profile = profileFromPolygon({{0, 0}, {0.4, 0}, {0.4, 0.5}, {0, 0.5}});
+    plate.tipLevel = plate.initialTipLevel = 1;
+    plate.tipCorner = TipCorner::full;
+    plate.loadControlled = true;
+    plate.submergedWeight = weight;
+    plate.mass = 2000;
+    plate.ramp = 0.5;
+    simulation.state.bodies.push_back(plate);
+    simulation.scene.movingBody = -1; // the settlement is a fraction of a cell
+    simulation.fill(soil, 2, 2, [](double, double z) { return z < 1; });
+    simulation.scene.controls.linearBulkViscosity = 0.3;
+    simulation.scene.controls.quadraticBulkViscosity = 0;
+    simulation.start();
+    simulation.run(6, 0.5);
+    simulation.state.reactions[0].restartCollection();
+    simulation.run(8, 0.5);
+    const BodyReaction& reaction = simulation.state.reactions[0];
+    const double carried = reaction.totalVerticalImpulse() / reaction.duration;
+    const double settlement = 1 - simulation.state.bodies[0].tipLevel;
+    const double exact = weight / 0.2 / modulus;
+    std::printf("plate: carried/weight %.5f, settlement/exact %.5f\n", carried / weight, settlement / exact);
+    EXPECT_NEAR(carried / weight, 1, 2e-2);
+    EXPECT_NEAR(settlement / exact, 1, 3e-2);
+}
+
 } // namespace
 } // namespace caisson::testing

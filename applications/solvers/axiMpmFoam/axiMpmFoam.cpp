@@ -2,6 +2,7 @@
 //
 // Usage: axiMpmFoam [-case <directory>] [-dry-run]
 
+#include "InstallationWatch.h"
 #include "Plan.h"
 #include "RunOutput.h"
 #include "case/FileIO.h"
@@ -110,6 +111,7 @@ int run(const std::filesystem::path& caseDirectory, bool dryRun, const std::stri
     }
 
     RunOutput output(runTime, caseScene, log);
+    InstallationWatch watch(state, log);
     while (runTime.running()) {
         const StableStep stable = step->stableStep(state);
         const double deltaT = runTime.advance(runTime.wantedDeltaT(stable.step));
@@ -120,6 +122,7 @@ int run(const std::filesystem::path& caseDirectory, bool dryRun, const std::stri
         if (runTime.writeTime() || runTime.index() % 100 == 0) {
             checkFinite(state, sumEnergies(scene, state), stable.waveSpeed);
         }
+        watch.afterStep(state, runTime);
         output.afterStep(state, *step, deltaT / stable.step);
         if (runTime.writeTime()) {
             step->rebuild(state);
