@@ -115,11 +115,11 @@ void setK0(SeededPoints& seeded, const std::vector<Material>& materials, const I
     }
 }
 
-constexpr std::string_view typeWords = "zero uniform K0";
+constexpr std::string_view typeWords = "zero uniform K0 fromTime";
 
 } // namespace
 
-std::vector<std::string> initialStateTypes() { return {"zero", "uniform", "K0"}; }
+std::vector<std::string> initialStateTypes() { return {"zero", "uniform", "K0", "fromTime"}; }
 
 std::vector<Keyword> initialStateKeywords(const std::string& type)
 {
@@ -134,6 +134,12 @@ std::vector<Keyword> initialStateKeywords(const std::string& type)
         keywords.push_back({"surfaceLevel", "m", "", "", "z of the soil surface"});
         keywords.push_back(
             {"overburden", "Pa", "0", "[0, inf)", "vertical effective pressure on the surface"});
+    } else if (type == "fromTime") {
+        keywords.push_back(
+            {"case", "string", ".", "",
+             "case directory of an earlier run, relative to this one; its points give stress and "
+             "state variables to those next to them"});
+        keywords.push_back({"time", "s", "", "", "time that the earlier run wrote"});
     }
     return keywords;
 }
@@ -168,6 +174,10 @@ InitialState readInitialState(const Dictionary& dictionary, InputProblems& probl
         state.K0 = reader.number("K0");
         state.surfaceLevel = reader.number("surfaceLevel");
         state.overburden = reader.number("overburden");
+    } else if (type == "fromTime") {
+        state.type = InitialState::Type::fromTime;
+        state.caseDirectory = reader.word("case");
+        state.time = reader.number("time");
     }
     return state;
 }

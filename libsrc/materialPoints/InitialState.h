@@ -7,12 +7,14 @@ namespace caisson {
 /// Stress of the points at the start.
 struct InitialState
 {
-    enum class Type { zero, uniform, K0 };
+    enum class Type { zero, uniform, K0, fromTime };
     Type type = Type::zero;
     std::array<double, 4> stress{}; ///< uniform: rr zz tt rz [Pa]
     double K0 = 0;                  ///< horizontal over vertical effective stress [-]
     double surfaceLevel = 0;        ///< z of the soil surface [m]
     double overburden = 0;          ///< vertical effective pressure on the surface [Pa]
+    std::string caseDirectory;      ///< fromTime: of the earlier run, relative to the case
+    double time = 0;                ///< fromTime: that the earlier run wrote [s]
     SourceLocation where;
 };
 
@@ -43,7 +45,7 @@ void setInitialPorePressure(SeededPoints& seeded, const std::vector<Material>& m
 
 /// Sets the stress of all points. K0: the vertical stress carries the overburden and the weight
 /// (weighingDensity) of what lies above; materials of different weight must lie in horizontal layers, the
-/// uppermost of which reaches to surfaceLevel.
+/// uppermost of which reaches to surfaceLevel. fromTime: zero; see takeEarlierState() (StateTransfer.h).
 /// @param gravity  [m/s2], r and z; K0 needs it downward
 void setInitialStress(SeededPoints& seeded, const std::vector<Material>& materials, const InitialState& state,
                       const std::array<double, 2>& gravity, InputProblems& problems);

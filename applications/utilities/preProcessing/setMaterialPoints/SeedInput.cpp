@@ -1,7 +1,11 @@
 #include "SeedInput.h"
 
 #include "case/FileIO.h"
+#include "case/FoamFile.h"
 #include "case/RunTime.h"
+#include "dictionary/Text.h"
+#include "materialPoints/CloudConversion.h"
+#include "scene/CaseScene.h"
 
 #include <algorithm>
 #include <cmath>
@@ -74,6 +78,37 @@ std::array<double, 2> readGravity(const Dictionary& dictionary, const Background
     return {g[0], g[2]};
 }
 
+/// The points of initialState fromTime, with the materials of their case.
+EarlierPoints readEarlier(const fs::path& caseDirectory, const InitialState& state, InputProblems& problems)
+{
+    const fs::path directory = caseDirectory / state.caseDirectory;
+    std::string names;
+    std::string name;
+    for (const TimeDirectory& time : timeDirectories(directory)) {
+        if (fs::is_directory(directory / time.name / "lagrangian/materialPoints")) {
+            names += " " + time.name;
+            if (std::abs(time.value - state.time) <= 1e-6 * std::max(std::abs(state.time), 1e-3)) {
+                name = time.name;
+            }
+        }
+    }
+    EarlierPoints earlier;
+    if (name.empty()) {
+        problems.add(
+            state.where,
+            text("case '%s' has no material points at the time %g", state.caseDirectory.c_str(), state.time),
+            names.empty() ? "run it first" : "it has them at" + names);
+        return earlier;
+    }
+    earlier.materials = readMaterials(
+        readDictionary(directory / "constant/materialProperties", directory,
+                       (fs::path(state.caseDirectory) / "constant/materialProperties").string()),
+        problems);
+    earlier.points =
+        materialPoints(readCloud(directory / name, "materialPoints"), stateVariableNames(earlier.materials));
+    return earlier;
+}
+
 } // namespace
 
 std::span<const Keyword> setMaterialPointsKeywords()
@@ -129,6 +164,9 @@ SeedInput readSeedInput(const fs::path& caseDirectory, const fs::path& dictionar
         }
         if (const Dictionary* state = reader.dictionary("initialState")) {
             input.initialState = readInitialState(*state, problems);
+            if (input.initialState.type == InitialState::Type::fromTime && problems.empty()) {
+                input.earlier = readEarlier(caseDirectory, input.initialState, problems);
+            }
         }
         if (reader.has("porePressure")) {
             if (const Dictionary* pore = reader.dictionary("porePressure")) {

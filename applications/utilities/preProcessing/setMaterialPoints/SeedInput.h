@@ -4,6 +4,7 @@
 #include "case/ControlDict.h"
 #include "materialPoints/InitialState.h"
 #include "materialPoints/PointLoads.h"
+#include "materialPoints/StateTransfer.h"
 
 #include <filesystem>
 #include <optional>
@@ -21,6 +22,7 @@ struct SeedInput
     std::array<double, 2> gravity{}; ///< r, z [m/s2]
     std::vector<SeedRegion> regions;
     InitialState initialState;
+    std::optional<EarlierPoints> earlier;            ///< of initialState fromTime
     std::optional<InitialPorePressure> porePressure; ///< of two-phase soil
     std::vector<PointLoad> pointLoads;
     std::vector<LoadedSurface> loadedSurfaces;

@@ -102,6 +102,10 @@ void run(const fs::path& caseDirectory, const fs::path& dictionaryFile, bool dry
     };
     SeededPoints seeded = seedPoints(mesh, input.regions, input.materials, insideBody, problems);
     setInitialStress(seeded, input.materials, input.initialState, input.gravity, problems);
+    if (input.earlier) {
+        takeEarlierState(seeded.points, input.materials, mesh, *input.earlier, input.initialState.where,
+                         problems);
+    }
     if (input.porePressure) {
         setInitialPorePressure(seeded, input.materials, *input.porePressure, input.gravity);
     }
