@@ -9,6 +9,8 @@ constexpr Keyword keywords[] = {
      "1: the soil alone, drained or dry; 2: soil and pore liquid, each with its velocity (v-w)"},
     {"drag", "word", "implicit", "implicit lagged",
      "drag between the phases: implicit at the nodes, or with the last velocities, which limits the step"},
+    {"checkerboardFilter", "-", "0.2", "[0, 1]",
+     "share of a checkerboard of pore pressures that is removed every ten steps; two phases only"},
     {"integration", "word", "mixed", "mixed points",
      "mixed: cells filled with soil with their own volume, others at their points; points: all at points"},
     {"volumetricLocking", "word", "automatic", "automatic none meanDilatation nodalAverage",
@@ -49,6 +51,7 @@ SolutionControls readSolutionControls(const Dictionary& mpmSolution, bool triang
     controls.phases = static_cast<int>(reader.integer("phases"));
     controls.drag =
         reader.word("drag") == "lagged" ? SolutionControls::Drag::lagged : SolutionControls::Drag::implicit;
+    controls.checkerboardFilter = reader.number("checkerboardFilter");
     controls.integration = reader.word("integration") == "points" ? SolutionControls::Integration::points
                                                                   : SolutionControls::Integration::mixed;
     const std::string locking = reader.word("volumetricLocking");

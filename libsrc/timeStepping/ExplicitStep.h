@@ -29,11 +29,13 @@ public:
     [[nodiscard]] std::string description() const override;
     [[nodiscard]] std::vector<std::array<double, 2>> nodalVelocities(const State& state) const override;
     [[nodiscard]] std::vector<double> nodalPressures(const State& state) const override;
+    [[nodiscard]] double checkerboardIndex(const State& state) const override;
 
 private:
     static constexpr int corners = Shape::corners;
     static constexpr bool axisymmetric = Shape::isAxisymmetric;
     static constexpr bool twoPhase = phases == 2;
+    static constexpr int filterInterval = 10; ///< steps between two uses of the checkerboard filter
     using Values = shapes::Values<corners>;
     using Dilatation = shapes::MeanDilatation<corners>;
 
@@ -79,6 +81,9 @@ private:
     void updateCells(const State& state);
     void classifyCells(State& state);
     void moveBodies(State& state, double dt);
+    void meanPressures(const State& state, std::vector<double>& cellPressure) const;
+    void averageOverNodes(const std::vector<double>& ofCells, std::vector<double>& result) const;
+    void filterPressures(State& state);
     void staggerStrain(State& state, double dt);
     void mapToNodes(State& state);
     void mapCellToNodes(State& state, int c);
@@ -160,9 +165,10 @@ private:
     std::vector<std::array<double, 2>> waterLoad_; ///< per node: of pressures on patches
     std::vector<double> givenPressure_;            ///< per node: excess pressure of a boundary, or NaN
     std::vector<double> pressureShape_;            ///< per point: pressure interpolated from the nodes
-    double unitWeight_ = 0;                        ///< of the liquid, along z [N/m3]: negative
-    std::vector<double> cellLiquidRate_;           ///< as cellRate_, for the liquid
-    std::vector<double> loadedArea_;               ///< per load: of its points (see loadedAreas)
+    mutable std::vector<double> cellPressure_, cellAverage_, ofNodes_; ///< of the filter
+    double unitWeight_ = 0;                            ///< of the liquid, along z [N/m3]: negative
+    std::vector<double> cellLiquidRate_;               ///< as cellRate_, for the liquid
+    std::vector<double> loadedArea_;                   ///< per load: of its points (see loadedAreas)
     std::vector<std::array<double, 2>> pointTraction_; ///< per load, now [Pa]
     std::vector<double> cellRate_; ///< dilatation rate used by the points of the cell (nodal average)
     std::vector<double> nodeRate_;

@@ -389,6 +389,11 @@ void ExplicitStep<Shape, phases>::advance(State& state, double dt)
         state.reactions[b].force = (state.reactions[b].totalVerticalImpulse() - impulseBefore_[b]) / dt;
     }
     mapToPoints(state, dt);
+    if constexpr (twoPhase) {
+        if (scene_.controls.checkerboardFilter > 0 && state.step % filterInterval == 0) {
+            filterPressures(state);
+        }
+    }
     updateStress(state);
     moveBodiesAndMesh(state, dt);
     relocate(state);

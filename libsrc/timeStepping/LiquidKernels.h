@@ -443,4 +443,99 @@ void ExplicitStep<Shape, phases>::touchTwoPhase(const RigidBody& body, BodyReact
     }
 }
 
+// ---------------------------------------------------------------------------------------------------------
+
+template <class Shape, int phases>
+void ExplicitStep<Shape, phases>::meanPressures(const State& state, std::vector<double>& cellPressure) const
+{
+    const MaterialPoints& points = state.points;
+    cellPressure.resize(cells_.size());
+    for (const int c : activeCells_) {
+        double volume = 0;
+        double sum = 0;
+        for (const int* i = pointCells_.begin(c); i != pointCells_.end(c); ++i) {
+            volume += points.volume[*i];
+            sum += points.volume[*i] * (points.porePressure[*i] - unitWeight_ * points.z[*i]);
+        }
+        cellPressure[c] = sum / volume;
+    }
+}
+
+/// From cells to their nodes, weighted with volume, and back as the mean of a cell's nodes. A checkerboard
+/// becomes zero; the sum over the volume stays.
+template <class Shape, int phases>
+void ExplicitStep<Shape, phases>::averageOverNodes(const std::vector<double>& ofCells,
+                                                   std::vector<double>& result) const
+{
+    ofNodes_.resize(nodes_.size());
+    result.resize(ofCells.size());
+    for (const int i : activeNodes_) {
+        double sum = 0;
+        double volume = 0;
+        for (int k = nodeCorners_.start[i]; k < nodeCorners_.start[i + 1]; ++k) {
+            const int c = nodeCorners_.item[k] / corners;
+            if (occupied_[c]) {
+                sum += ofCells[c] * dilatation_[c].volume;
+                volume += dilatation_[c].volume;
+            }
+        }
+        ofNodes_[i] = sum / volume;
+    }
+    for (const int c : activeCells_) {
+        double sum = 0;
+        for (int k = 0; k < corners; ++k) {
+            sum += ofNodes_[cellNodes_[c * corners + k]];
+        }
+        result[c] = sum / corners;
+    }
+}
+
+/// Linear cells of one pressure do not feel a checkerboard of it: no flow levels it. With A the average over
+/// the nodes, (1 - A)^2 of a pressure is that of a checkerboard itself, and O(h^4) of a smooth field.
+template <class Shape, int phases>
+void ExplicitStep<Shape, phases>::filterPressures(State& state)
+{
+    meanPressures(state, cellPressure_);
+    for (int pass = 0; pass < 2; ++pass) {
+        averageOverNodes(cellPressure_, cellAverage_);
+        for (const int c : activeCells_) {
+            cellPressure_[c] -= cellAverage_[c];
+        }
+    }
+    for (const int c : activeCells_) {
+        bool open = bySurface_[c] != 0; // a mirror image across an impermeable side is right, there it is not
+        for (int k = 0; k < corners; ++k) {
+            open = open || !std::isnan(givenPressure_[cellNodes_[c * corners + k]]);
+        }
+        if (open) {
+            continue;
+        }
+        const double change = scene_.controls.checkerboardFilter * cellPressure_[c];
+        for (const int* i = pointCells_.begin(c); i != pointCells_.end(c); ++i) {
+            state.points.porePressure[*i] -= change;
+        }
+    }
+}
+
+template <class Shape, int phases>
+double ExplicitStep<Shape, phases>::checkerboardIndex(const State& state) const
+{
+    if (!state.points.twoPhase()) {
+        return 0;
+    }
+    meanPressures(state, cellPressure_);
+    averageOverNodes(cellPressure_, cellAverage_);
+    double volume = 0, mean = 0, square = 0, difference = 0;
+    for (const int c : activeCells_) {
+        const double v = dilatation_[c].volume;
+        volume += v;
+        mean += v * cellPressure_[c];
+        square += v * cellPressure_[c] * cellPressure_[c];
+        difference += v * (cellPressure_[c] - cellAverage_[c]) * (cellPressure_[c] - cellAverage_[c]);
+    }
+    mean /= volume;
+    const double deviation = square / volume - mean * mean;
+    return deviation > 0 ? std::sqrt(difference / volume / deviation) : 0;
+}
+
 } // namespace caisson

@@ -44,7 +44,10 @@ struct SolutionControls
     double commonTimeStep = 0;         ///< step that cells are scaled up to [s]; 0: none
     double inertiaGate = 0.02; ///< of scaled rho v^2 over the vertical effective stress at the tip [-]
     double energyGate = 0.05;  ///< of kinetic energy over work done [-]
-    int sortInterval = 50;     ///< steps between physical sorts of the points
+    /// Share of a checkerboard of pore pressures that is removed every ten steps; smooth fields change by
+    /// O(h^4).
+    double checkerboardFilter = 0.2;
+    int sortInterval = 50; ///< steps between physical sorts of the points
 };
 
 /// All that does not change while a case runs. Plain, validated data.

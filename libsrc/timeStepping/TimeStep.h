@@ -49,6 +49,9 @@ public:
     /// Pore pressure at the nodes [Pa], the mean of the points round each; zero where there are none. Two
     /// phases only.
     [[nodiscard]] virtual std::vector<double> nodalPressures(const State& state) const = 0;
+    /// Standard deviation of the cells' excess pore pressures from the means of their nodes, over that of the
+    /// pressures; 0 where there are none. A checkerboard has 1, a smooth field O(h^2).
+    [[nodiscard]] virtual double checkerboardIndex(const State& state) const = 0;
 };
 
 /// Chooses the compiled kernel for a scene (geometry, kind of cells) and prepares the state.

@@ -261,6 +261,10 @@ void RunOutput::afterStep(State& state, const TimeStep& step, double courant)
         const CellCounts cells = step.cellCounts(state);
         report.lines.push_back(text("Cells: filled = %d, partly filled = %d, empty = %d", cells.filled,
                                     cells.partial, cells.empty));
+        if (state.points.twoPhase()) {
+            report.lines.push_back(
+                text("Pore pressure: checkerboard index = %.4f", step.checkerboardIndex(state)));
+        }
         log_.step(runTime_, report);
     } else {
         StepReport silent;

@@ -135,6 +135,25 @@ def read_points(file):
     return ids[order], np.column_stack([np.hypot(x, y), z])[order]
 
 
+def read_fields(file, *names):
+    """Places r and z, and the named fields, of the material points of a .vtp file, as a dictionary."""
+    from vtkmodules.util.numpy_support import vtk_to_numpy
+    from vtkmodules.vtkIOXML import vtkXMLPolyDataReader
+
+    reader = vtkXMLPolyDataReader()
+    reader.SetFileName(str(file))
+    reader.Update()
+    data = reader.GetOutput()
+    x, y, z = vtk_to_numpy(data.GetPoints().GetData()).astype(float).T
+    fields = {"r": np.hypot(x, y), "z": z}
+    for name in names:
+        array = data.GetPointData().GetArray(name)
+        if array is None:
+            raise PlotError(f"{file}: the material points have no field {name}")
+        fields[name] = vtk_to_numpy(array).astype(float)
+    return fields
+
+
 def common_points(first, second):
     """Positions of the points that both clouds (ids, positions) have, in the same order."""
     _, i, j = np.intersect1d(first[0], second[0], assume_unique=True, return_indices=True)
