@@ -94,6 +94,13 @@ private:
     static bool isWholeValue(const std::vector<Token>& tokens);
     /// The entry that a variable name stands for, from the scope outwards.
     Found lookup(const SourceLocation& where, std::string name, const Dictionary& scope, Match match) const;
+    std::optional<std::string> otherwise(const SourceLocation& where, std::string& name,
+                                         const Dictionary& scope);
+    /// Tokens of text from outside the dictionary, which has to be a whole value.
+    static std::vector<Token> tokensOf(const SourceLocation& where, const std::string& name,
+                                       std::string_view text);
+    [[noreturn]] static void failUnknown(const SourceLocation& where, const std::string& name,
+                                         const Dictionary& scope);
     std::vector<Token> expand(const SourceLocation& where, std::string_view variable,
                               const Dictionary& scope);
     /// `text` with its $variables replaced by what they stand for.

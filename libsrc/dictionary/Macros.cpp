@@ -179,63 +179,83 @@ std::optional<std::string> DictionaryParser::environment(const std::string& name
     return value ? std::optional<std::string>(value) : std::nullopt;
 }
 
+/// What `name:-default` or `name:+alternative` stands for; nothing where that is the variable itself. `name`
+/// becomes the variable's.
+std::optional<std::string> DictionaryParser::otherwise(const SourceLocation& where, std::string& name,
+                                                       const Dictionary& scope)
+{
+    const std::size_t plus = name.find(":+");
+    const std::size_t at = std::min(name.find(":-"), plus);
+    const std::string other = at == std::string::npos ? "" : name.substr(at + 2);
+    name = expandText(where, name.substr(0, at), scope);
+    if (at == std::string::npos) {
+        return std::nullopt;
+    }
+    const bool defined =
+        lookup(where, name, scope, Match::exact).entry || environment(name).value_or("") != "";
+    if (defined == (at == plus)) {
+        return expandText(where, other, scope);
+    }
+    return defined ? std::nullopt : std::optional<std::string>("");
+}
+
+std::vector<Token> DictionaryParser::tokensOf(const SourceLocation& where, const std::string& name,
+                                              std::string_view text)
+{
+    std::vector<Token> tokens;
+    Lexer lexer(text, where.file);
+    for (Token token; lexer.next(token);) {
+        tokens.push_back(std::move(token));
+    }
+    if (!isWholeValue(tokens)) {
+        fail(where,
+             "'" + std::string(text.substr(0, 60)) + "', which '$" + name + "' stands for, is no value",
+             "a ';' or a bracket without its other half is in it");
+    }
+    return tokens;
+}
+
+void DictionaryParser::failUnknown(const SourceLocation& where, const std::string& name,
+                                   const Dictionary& scope)
+{
+    std::vector<std::string> known;
+    for (const Dictionary* place = &scope; place; place = place->parent_) {
+        for (const Entry& other : place->entries()) {
+            known.push_back(other.keyword);
+        }
+    }
+    const std::string near = nearestWord(name, known);
+    fail(where, "nothing is called '" + name + "' for the macro '$" + name + "'",
+         near.empty() ? "neither an entry above nor an environment variable"
+                      : "did you mean '$" + near + "'?");
+}
+
 std::vector<Token> DictionaryParser::expand(const SourceLocation& where, std::string_view variable,
                                             const Dictionary& scope)
 {
     const Level level(macroDepth_, deepestMacro, where, "macros are nested too deeply");
     std::string name(variable.substr(1));
-    std::optional<std::string> text; // to be read into tokens
+    std::optional<std::string> text;
     if (isBraced(name)) {
         name = name.substr(1, name.size() - 2);
-        const std::size_t minus = name.find(":-");
-        const std::size_t plus = name.find(":+");
-        const std::size_t at = std::min(minus, plus); // ${name:-default} ${name:+alternative}
-        if (at != std::string::npos) {
-            const std::string other = name.substr(at + 2);
-            name = expandText(where, name.substr(0, at), scope);
-            const bool defined =
-                lookup(where, name, scope, Match::exact).entry || environment(name).value_or("") != "";
-            if (defined == (at == plus)) {
-                text = expandText(where, other, scope);
-            } else if (!defined) {
-                text = "";
-            }
-        } else {
-            name = expandText(where, name, scope);
-        }
+        text = otherwise(where, name, scope);
     }
     rememberMacro(name);
 
-    std::vector<Token> tokens;
     const Found found = text ? Found{} : lookup(where, name, scope, Match::exact);
-    if (!text && !found.entry && !found.dictionary) {
-        text = environment(name);
-    }
+    std::vector<Token> tokens;
     if (found.dictionary) {
         appendEntries(tokens, *found.dictionary);
     } else if (found.entry) {
         tokens = found.entry->tokens;
-    } else if (text) {
-        Lexer lexer(*text, where.file);
-        Token token;
-        while (lexer.next(token)) {
-            tokens.push_back(std::move(token));
-        }
-        if (!isWholeValue(tokens)) {
-            fail(where, "'" + text->substr(0, 60) + "', which '$" + name + "' stands for, is no value",
-                 "a ';' or a bracket without its other half is in it");
-        }
     } else {
-        std::vector<std::string> known;
-        for (const Dictionary* place = &scope; place; place = place->parent_) {
-            for (const Entry& other : place->entries()) {
-                known.push_back(other.keyword);
-            }
+        if (!text) {
+            text = environment(name);
         }
-        const std::string near = nearestWord(name, known);
-        fail(where, "nothing is called '" + name + "' for the macro '$" + name + "'",
-             near.empty() ? "neither an entry above nor an environment variable"
-                          : "did you mean '$" + near + "'?");
+        if (!text) {
+            failUnknown(where, name, scope);
+        }
+        tokens = tokensOf(where, name, *text);
     }
     for (Token& token : tokens) {
         token.line = where.line;
