@@ -78,7 +78,8 @@ void Dictionary::removeIf(const std::function<bool(const Entry&)>& condition)
     std::vector<Entry> kept;
     std::swap(kept, entries_);
     index_.clear();
-    std::vector<std::string> order = std::move(patterns_);
+    std::vector<std::string> order;
+    std::swap(order, patterns_);
     for (Entry& entry : kept) {
         if (!condition(entry)) {
             append(std::move(entry));

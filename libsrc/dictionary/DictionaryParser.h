@@ -103,6 +103,9 @@ private:
                                          const Dictionary& scope);
     std::vector<Token> expand(const SourceLocation& where, std::string_view variable,
                               const Dictionary& scope);
+    /// What one `$variable` in a text stands for.
+    std::string variableText(const SourceLocation& where, const std::string& variable,
+                             const Dictionary& scope);
     /// `text` with its $variables replaced by what they stand for.
     std::string expandText(const SourceLocation& where, std::string_view text, const Dictionary& scope);
     void rememberMacro(std::string_view name);

@@ -192,7 +192,7 @@ std::optional<std::string> DictionaryParser::otherwise(const SourceLocation& whe
         return std::nullopt;
     }
     const bool defined =
-        lookup(where, name, scope, Match::exact).entry || environment(name).value_or("") != "";
+        lookup(where, name, scope, Match::exact).entry || !environment(name).value_or("").empty();
     if (defined == (at == plus)) {
         return expandText(where, other, scope);
     }
@@ -264,6 +264,22 @@ std::vector<Token> DictionaryParser::expand(const SourceLocation& where, std::st
     return tokens;
 }
 
+std::string DictionaryParser::variableText(const SourceLocation& where, const std::string& variable,
+                                           const Dictionary& scope)
+{
+    const std::string name = variable.substr(1);
+    if (!lookup(where, name, scope, Match::exact).entry) {
+        if (auto value = environment(isBraced(name) ? name.substr(1, name.size() - 2) : name)) {
+            return *std::move(value); // as it stands: a path is not to be cut into tokens
+        }
+    }
+    std::string text;
+    for (const Token& token : expand(where, variable, scope)) {
+        text += (text.empty() ? "" : " ") + token.text;
+    }
+    return text;
+}
+
 std::string DictionaryParser::expandText(const SourceLocation& where, std::string_view text,
                                          const Dictionary& scope)
 {
@@ -294,20 +310,7 @@ std::string DictionaryParser::expandText(const SourceLocation& where, std::strin
         if (variable.size() < 2) {
             fail(where, "'$' without a name in '" + std::string(text.substr(0, 60)) + "'");
         }
-        const std::string name = variable.substr(1);
-        const std::optional<std::string> fromEnvironment =
-            lookup(where, name, scope, Match::exact).entry
-                ? std::nullopt
-                : environment(isBraced(name) ? name.substr(1, name.size() - 2) : name);
-        if (fromEnvironment) { // as it stands: a path is not to be cut into tokens
-            result += *fromEnvironment;
-        } else {
-            std::string value;
-            for (const Token& token : expand(where, variable, scope)) {
-                value += (value.empty() ? "" : " ") + token.text;
-            }
-            result += value;
-        }
+        result += variableText(where, variable, scope);
         if (result.size() > longestText) {
             fail(where, "macros expand to more than a million characters", "do they double themselves?");
         }
