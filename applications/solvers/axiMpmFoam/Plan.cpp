@@ -1,6 +1,7 @@
 #include "Plan.h"
 
 #include "dictionary/Text.h"
+#include "installation/Seepage.h"
 
 #include <algorithm>
 #include <cmath>
@@ -16,6 +17,37 @@ double bytesPerPoint(const State& state)
     constexpr int hotAndCold = 6 + 4 + 2; // place, velocity, mass, volume; stress; initial place
     constexpr int strainAndSpin = 5;
     return 8.0 * (hotAndCold + strainAndSpin + static_cast<int>(state.points.state.size())) + 4.0 * (3 + 1);
+}
+
+/// Warns of a suction on a plug that would make its sand flow: steady seepage, by penetration.
+void checkSuction(Log& log, const Scene& scene, const State& state)
+{
+    for (const FreeSurface& surface : scene.freeSurfaces) {
+        const auto body = std::ranges::find(state.bodies, surface.body, &RigidBody::name);
+        if (surface.region != FreeSurface::Region::inside || !surface.pressure ||
+            body == state.bodies.end() || surface.variable != FreeSurface::Variable::penetration) {
+            continue;
+        }
+        const double g = std::abs(scene.gravity[1]);
+        const double unitWeight = scene.materials.front().weighingDensity() * g;
+        const double diameter = 2 * body->innerRadius();
+        for (int i = 0; i <= 100; ++i) {
+            const double h = body->penetration() + 0.01 * i * (body->referenceLength - body->penetration());
+            if (h <= 0 || h > surface.pressure->end()) {
+                continue;
+            }
+            const double suction = -surface.pressure->value(h);
+            const double limit = unitWeight * h * exitGradientFactor(h / diameter);
+            if (suction > limit) {
+                log.warning(text(
+                    "suction %.4g Pa on free surface %s at penetration %.3g m is above %.4g Pa, at which "
+                    "steady seepage makes the sand at the wall flow (critical exit gradient): piping is to "
+                    "be expected",
+                    suction, surface.name.c_str(), h, limit));
+                break;
+            }
+        }
+    }
 }
 
 } // namespace
@@ -73,6 +105,7 @@ void printPlan(Log& log, const ControlDict& control, const Scene& scene, const S
                   stable.cell, stable.size, stable.waveSpeed));
     log.line(text("Memory of the points: %.0f byte each, %.4g MB", bytesPerPoint(state),
                   1e-6 * bytesPerPoint(state) * static_cast<double>(state.points.size())));
+    checkSuction(log, scene, state);
     for (const std::string& remark : control.remarks) {
         log.line(remark);
     }
