@@ -79,6 +79,7 @@ private:
     void includeInValue(Source& source, const Dictionary& scope, const Token& directive,
                         std::vector<Token>& value);
     void includeFunction(Source& source, Dictionary& into, const Token& directive);
+    [[nodiscard]] std::filesystem::path functionFile(const std::string& function) const;
     /// Text and path of the file that follows an #include; no text where it may be missing.
     std::optional<std::string> includedText(Source& source, const Dictionary& scope, const Token& directive,
                                             std::filesystem::path& path);

@@ -265,6 +265,27 @@ void DictionaryParser::includeInValue(Source& source, const Dictionary& scope, c
     std::ranges::move(tokens, std::back_inserter(value));
 }
 
+/// The file in system/ of a function object of that name, or else in OpenFOAM's caseDicts.
+std::filesystem::path DictionaryParser::functionFile(const std::string& function) const
+{
+    std::filesystem::path own = origin_->caseDirectory / "system" / function;
+    if (readTextFile(own)) {
+        return own;
+    }
+    for (const auto& etc : etcDirectories()) {
+        const std::filesystem::path root = etc / "caseDicts/postProcessing";
+        if (!std::filesystem::is_directory(root)) {
+            continue;
+        }
+        for (const auto& file : std::filesystem::recursive_directory_iterator(root)) {
+            if (file.is_regular_file() && file.path().filename() == function) {
+                return file.path();
+            }
+        }
+    }
+    return own;
+}
+
 /// `#includeFunc name(field, key=value)`: the function object of that name from system/ or from OpenFOAM's
 /// caseDicts, with its fields and keys set.
 void DictionaryParser::includeFunction(Source& source, Dictionary& into, const Token& directive)
@@ -278,20 +299,8 @@ void DictionaryParser::includeFunction(Source& source, Dictionary& into, const T
         fail(where, "#includeFunc is not allowed here", "this text comes from no file");
     }
     const std::string function = name.text.substr(0, name.text.find('('));
-    std::filesystem::path found = origin_->caseDirectory / "system" / function;
-    std::optional<std::string> text = readTextFile(found);
-    for (const auto& etc : etcDirectories()) {
-        const std::filesystem::path root = etc / "caseDicts/postProcessing";
-        if (text || !std::filesystem::is_directory(root)) {
-            continue;
-        }
-        for (const auto& file : std::filesystem::recursive_directory_iterator(root)) {
-            if (file.is_regular_file() && file.path().filename() == function) {
-                found = file.path();
-                text = readTextFile(found);
-            }
-        }
-    }
+    const std::filesystem::path found = functionFile(function);
+    const std::optional<std::string> text = readTextFile(found);
     if (!text) {
         fail(where, "no function object '" + function + "' in system/ or OpenFOAM's caseDicts");
     }
