@@ -140,9 +140,12 @@ TEST(ManufacturedBulge, convergesWithTheSquareOfTheCellSize)
     expectSecondOrder("bulge, A = 0.0005", {0.0005, true}, {6e-4, 2.5e-3});
 }
 
-// Points of a filled cell are samples of the whole cell: its mean stress is that of their places, and its
-// mass is that of a full cell shared out by their places. Once they have moved, both are off by the strain
-// until they cross into the next cell, which no refinement removes: 1.7e-3 at A = 0.005 and T/4.
+// An error of the order of the strain remains that no refinement removes: 1.7e-3 at A = 0.005 and T/4. It
+// grows while points move within their cells and starts again when they cross. Points of a filled cell are
+// samples of the whole cell: its mean stress is that of their places, and its mass is shared out by their
+// places on top of being scaled to a full cell. Stress extrapolated to the middle of the cell takes the error
+// of the disk at A = 0.1 and 3T/4 from 1.2e-2 to 2.5e-3, mass shared out evenly that of the bulge at A =
+// 0.005 and T/4 from 1.7e-3 to 1.1e-3; neither removes it.
 TEST(ManufacturedBulge, convergesToTheErrorOfMovedPointsAtSmallStrain)
 {
     std::array<double, 3> total{};
