@@ -43,6 +43,9 @@ LiquidBoundary::LiquidBoundary(const BackgroundMesh& mesh, std::map<std::string,
             open_.emplace_back(p, condition);
             continue;
         }
+        if (condition->givesFlux()) {
+            fed_.emplace_back(p, condition);
+        }
         for (const BoundaryEdge& edge : mesh.patches[p].edges) {
             const auto [a, b] = edge.node;
             const double length = std::hypot(mesh.r[b] - mesh.r[a], mesh.z[b] - mesh.z[a]);
@@ -79,6 +82,20 @@ void LiquidBoundary::addPressures(const BackgroundMesh& mesh, double time, doubl
                 force[b][0] -= weight * x * dz;
                 force[b][1] += weight * x * dr;
             }
+        }
+    }
+}
+
+void LiquidBoundary::addInflows(const BackgroundMesh& mesh, double time, std::vector<double>& inflow) const
+{
+    const bool axisymmetric = mesh.geometry == Geometry::axisymmetric;
+    for (const auto& [p, condition] : fed_) {
+        const double discharge = condition->at(time, 0);
+        for (const BoundaryEdge& edge : mesh.patches[p].edges) {
+            const auto [a, b] = edge.node;
+            const double length = std::hypot(mesh.r[b] - mesh.r[a], mesh.z[b] - mesh.z[a]);
+            inflow[a] += discharge * length * (axisymmetric ? (2 * mesh.r[a] + mesh.r[b]) / 6 : 0.5);
+            inflow[b] += discharge * length * (axisymmetric ? (2 * mesh.r[b] + mesh.r[a]) / 6 : 0.5);
         }
     }
 }

@@ -28,6 +28,8 @@ public:
     /// rho_w g_z z [Pa] at the place.
     void addPressures(const BackgroundMesh& mesh, double time, double unitWeight,
                       std::vector<std::array<double, 2>>& force) const;
+    /// Adds what prescribed fluxes feed in at the nodes [m3/s/rad or m2/s].
+    void addInflows(const BackgroundMesh& mesh, double time, std::vector<double>& inflow) const;
     /// Sets the given pressures, less the hydrostatic part, at the nodes of their patches.
     void setPressures(const BackgroundMesh& mesh, double time, double unitWeight,
                       std::vector<double>& excessPressure) const;
@@ -36,6 +38,7 @@ public:
 private:
     std::map<std::string, std::shared_ptr<const PatchPressure>> patches_;
     std::vector<Node> nodes_;
+    std::vector<std::pair<int, std::shared_ptr<const PatchPressure>>> fed_;  ///< likewise, with a flux
     std::vector<std::pair<int, std::shared_ptr<const PatchPressure>>> open_; ///< patch of the mesh, condition
 };
 

@@ -194,16 +194,16 @@ void setInitialStress(SeededPoints& seeded, const std::vector<Material>& materia
     }
 }
 
-std::vector<std::string> initialPorePressureTypes() { return {"hydrostatic", "uniform"}; }
+std::vector<std::string> initialPorePressureTypes() { return {"hydrostatic", "uniform", "seepage"}; }
 
 std::vector<Keyword> initialPorePressureKeywords(const std::string& type)
 {
     std::vector<Keyword> keywords = {
-        {"type", "word", "", "hydrostatic uniform", "how the pore pressure at the start is found"}};
+        {"type", "word", "", "hydrostatic uniform seepage", "how the pore pressure at the start is found"}};
     if (type == "hydrostatic") {
         keywords.push_back({"level", "m", "0", "", "where the hydrostatic part rho_w g (level - z) is zero"});
         keywords.push_back({"pressure", "Pa", "0", "", "added to the hydrostatic part"});
-    } else {
+    } else if (type == "uniform") {
         keywords.push_back({"pressure", "Pa", "", "", "pore pressure, compression positive"});
     }
     return keywords;
@@ -224,6 +224,10 @@ InitialPorePressure readInitialPorePressure(const Dictionary& dictionary, InputP
     }
     const std::vector<Keyword> keywords = initialPorePressureKeywords(type);
     const KeywordReader reader(dictionary, keywords, "porePressure", problems);
+    initial.seepage = type == "seepage";
+    if (initial.seepage) {
+        return initial;
+    }
     initial.hydrostatic = type == "hydrostatic";
     initial.level = initial.hydrostatic ? reader.number("level") : 0;
     initial.pressure = reader.number("pressure");

@@ -31,6 +31,7 @@ struct InitialPorePressure
     double level = 0;         ///< where the hydrostatic part is zero [m]
     double pressure = 0;      ///< added to it [Pa]
     bool hydrostatic = false; ///< whether there is one
+    bool seepage = false;     ///< from the steady seepage between the conditions of 0/p instead
 };
 
 std::vector<Keyword> initialPorePressureKeywords(const std::string& type);

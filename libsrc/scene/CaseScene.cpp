@@ -3,6 +3,7 @@
 #include "case/FileIO.h"
 #include "materialPoints/CloudConversion.h"
 #include "mesh/CellLocator.h"
+#include "scene/SeepageScene.h"
 #include "scene/SolutionDict.h"
 
 #include <algorithm>
@@ -378,6 +379,26 @@ CaseScene readCaseScene(const std::filesystem::path& caseDirectory, const std::f
                      "phases 2, or no porePressure in system/setMaterialPointsDict");
     }
     return result;
+}
+
+std::vector<double> readSeepagePressure(const std::filesystem::path& caseDirectory, const std::string& start,
+                                        const BackgroundMesh& mesh, const MaterialPoints& points,
+                                        const std::array<double, 2>& gravity)
+{
+    CaseScene result;
+    InputProblems problems;
+    result.scene.materials =
+        readMaterials(readDictionary(caseDirectory / "constant/materialProperties", caseDirectory), problems);
+    if (fileExists(caseDirectory / "constant/bodies")) {
+        result.state.bodies =
+            readBodies(readDictionary(caseDirectory / "constant/bodies", caseDirectory), problems);
+    }
+    result.scene.gravity = gravity;
+    result.state.mesh = mesh;
+    result.state.points = points;
+    readLiquid(caseDirectory, start, readPolyMesh(caseDirectory), result, problems);
+    problems.throwIfAny("case " + caseDirectory.string());
+    return steadyPorePressure(result.scene, result.state);
 }
 
 } // namespace caisson

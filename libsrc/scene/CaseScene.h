@@ -30,6 +30,13 @@ CaseScene readCaseScene(const std::filesystem::path& caseDirectory, const std::f
                         bool restarted, const std::map<std::string, std::vector<double>>& kept,
                         InputProblems& problems);
 
+/// Pore pressure of freshly filled points in the steady seepage that 0/p asks for [Pa]; their own is not
+/// looked at. For setMaterialPoints.
+/// @throws InputError with every problem of 0/p and of the liquid's properties
+std::vector<double> readSeepagePressure(const std::filesystem::path& caseDirectory, const std::string& start,
+                                        const BackgroundMesh& mesh, const MaterialPoints& points,
+                                        const std::array<double, 2>& gravity);
+
 /// Keys of constant/g.
 std::span<const Keyword> gravityKeywords();
 

@@ -20,17 +20,7 @@ void ExplicitStep<Shape, phases>::findFreeSurfaces(const State& state)
         for (int k = 0; k < corners; ++k) {
             centre += state.mesh.r[cellNodes_[c * corners + k]] / corners;
         }
-        for (int s = 0; s < static_cast<int>(scene_.freeSurfaces.size()) && freeSurface_[c] < 0; ++s) {
-            const FreeSurface& surface = scene_.freeSurfaces[s];
-            bool within = surface.region == FreeSurface::Region::all;
-            for (const RigidBody& body : state.bodies) {
-                if (!within && body.name == surface.body) {
-                    const bool inside = std::abs(centre) < body.innerRadius();
-                    within = inside == (surface.region == FreeSurface::Region::inside);
-                }
-            }
-            freeSurface_[c] = within ? s : -1;
-        }
+        freeSurface_[c] = freeSurfaceAt(scene_.freeSurfaces, state.bodies, centre);
     }
 }
 
@@ -38,18 +28,7 @@ template <class Shape, int phases>
 void ExplicitStep<Shape, phases>::updateSurfacePressures(const State& state)
 {
     for (std::size_t s = 0; s < surfacePressure_.size(); ++s) {
-        const FreeSurface& surface = scene_.freeSurfaces[s];
-        double pressure = -unitWeight_ * surface.level;
-        if (surface.pressure) {
-            double x = state.time;
-            for (const RigidBody& body : state.bodies) {
-                if (surface.variable == FreeSurface::Variable::penetration && body.name == surface.body) {
-                    x = body.penetration();
-                }
-            }
-            pressure += surface.pressure->value(x);
-        }
-        surfacePressure_[s] = pressure;
+        surfacePressure_[s] = excessPressure(scene_.freeSurfaces[s], state.bodies, state.time, unitWeight_);
     }
 }
 

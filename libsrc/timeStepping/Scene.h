@@ -1,7 +1,7 @@
 #pragma once
 
 #include "bodies/BodySurface.h"
-#include "boundary/FreeSurface.h"
+#include "bodies/FreeSurface.h"
 #include "boundary/LiquidBoundary.h"
 #include "boundary/VelocityConditions.h"
 #include "constitutive/Material.h"

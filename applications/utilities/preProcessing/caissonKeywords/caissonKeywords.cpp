@@ -3,12 +3,13 @@
 // Usage: caissonKeywords [-check <file>]
 
 #include "../setMaterialPoints/SeedInput.h"
-#include "boundary/FreeSurface.h"
+#include "bodies/FreeSurface.h"
 #include "boundary/LiquidConditions.h"
 #include "case/FileIO.h"
 #include "installation/InstallationInput.h"
 #include "mesh/MeshMotion.h"
 #include "scene/CaseScene.h"
+#include "scene/SeepageScene.h"
 #include "scene/SolutionDict.h"
 
 #include <boost/program_options.hpp>
@@ -95,6 +96,8 @@ std::string allTables()
             tables("every load", "load of type", pointLoadTypes(), pointLoadKeywords);
     text += "## constant/dynamicMeshDict\n\n" + table("dynamicMeshDict", meshMotionKeywords());
     text += "## constant/g\n\n" + table("g", gravityKeywords());
+    text += "## system/seepageDict\n\nFor seepageFoam; steady where the file is missing.\n\n" +
+            table("seepageDict", seepageKeywords());
     text += "## system/suctionPressureDict\n\n";
     for (const InstallationKeywords& part : installationKeywords()) {
         text += table(part.title, part.keywords);

@@ -109,6 +109,12 @@ void run(const fs::path& caseDirectory, const fs::path& dictionaryFile, bool dry
     if (input.porePressure) {
         setInitialPorePressure(seeded, input.materials, *input.porePressure, input.gravity);
     }
+    problems.throwIfAny("case " + caseDirectory.string());
+    if (input.porePressure && input.porePressure->seepage) {
+        seeded.points.porePressure =
+            readSeepagePressure(caseDirectory, input.startDirectory.filename().string(), mesh, seeded.points,
+                                input.gravity);
+    }
     const std::vector<LoadedPoints> loaded = loadPoints(seeded.points, mesh, input.loadedSurfaces, problems);
     problems.throwIfAny("case " + caseDirectory.string());
     printRegions(input, seeded);

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "function1/Function1.h"
+#include "bodies/RigidBody.h"
 
 #include <string>
 #include <vector>
@@ -24,6 +24,15 @@ struct FreeSurface
     std::shared_ptr<const Function1> pressure; ///< added to it [Pa]; suction is negative
     Variable variable = Variable::time;        ///< of `pressure` [s], or penetration of `body` [m]
 };
+
+/// The free surface that voids at a radius belong to: index of the first that holds, or -1.
+int freeSurfaceAt(const std::vector<FreeSurface>& surfaces, const std::vector<RigidBody>& bodies,
+                  double radius);
+
+/// Pressure on a free surface less its hydrostatic part rho_w g_z z [Pa].
+/// @param unitWeight  of the liquid along z, rho_w g_z: negative [N/m3]
+double excessPressure(const FreeSurface& surface, const std::vector<RigidBody>& bodies, double time,
+                      double unitWeight);
 
 /// Reads `freeSurfaces { plug { region inside; body caisson; ... } ... }` of 0/p.
 /// @param bodies  names of the bodies of the case

@@ -1,4 +1,4 @@
-#include "boundary/FreeSurface.h"
+#include "bodies/FreeSurface.h"
 
 #include <algorithm>
 
@@ -30,6 +30,40 @@ private:
 };
 
 } // namespace
+
+int freeSurfaceAt(const std::vector<FreeSurface>& surfaces, const std::vector<RigidBody>& bodies,
+                  double radius)
+{
+    for (std::size_t s = 0; s < surfaces.size(); ++s) {
+        if (surfaces[s].region == FreeSurface::Region::all) {
+            return static_cast<int>(s);
+        }
+        for (const RigidBody& body : bodies) {
+            const bool inside = std::abs(radius) < body.innerRadius();
+            if (body.name == surfaces[s].body &&
+                inside == (surfaces[s].region == FreeSurface::Region::inside)) {
+                return static_cast<int>(s);
+            }
+        }
+    }
+    return -1;
+}
+
+double excessPressure(const FreeSurface& surface, const std::vector<RigidBody>& bodies, double time,
+                      double unitWeight)
+{
+    double pressure = -unitWeight * surface.level;
+    if (surface.pressure) {
+        double x = time;
+        for (const RigidBody& body : bodies) {
+            if (surface.variable == FreeSurface::Variable::penetration && body.name == surface.body) {
+                x = body.penetration();
+            }
+        }
+        pressure += surface.pressure->value(x);
+    }
+    return pressure;
+}
 
 std::span<const Keyword> freeSurfaceKeywords() { return keywords; }
 

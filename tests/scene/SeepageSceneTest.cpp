@@ -1,0 +1,96 @@
+// Seepage of a scene: round a caisson, and what the two-phase step settles to.
+
+#include "scene/SeepageScene.h"
+
+#include "support/Simulation.h"
+#include "support/StructuredMesh.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+
+namespace caisson::testing {
+namespace {
+
+/// A caisson of 2.4 m in elastic soil of high permeability, with a suction on its plug.
+Simulation caissonUnderSuction(double suction)
+{
+    Simulation simulation;
+    simulation.state.mesh =
+        structuredMesh(evenLines(0, 3.2, 32), evenLines(-3, 0.6, 36), Geometry::axisymmetric);
+    const int soil = simulation.addMaterial(
+        "soil",
+        "law linearElastic; porosity 0.35; solidDensity 2650; youngsModulus 60e6; poissonsRatio 0.25; "
+        "intrinsicPermeability 1e-8; liquidBulkModulus 2e7;");
+    simulation.scene.controls.phases = 2;
+    simulation.scene.gravity = {0, -9.81};
+    simulation.setConditions("right { type slip; } bottom { type slip; } top { type zeroGradient; }");
+    simulation.setPressures(
+        "right { type hydrostatic; } bottom { type impermeable; } top { type impermeable; }");
+    RigidBody caisson;
+    caisson.name = "caisson";
+    caisson.profile = caissonProfile(1.2, 0.2, 2, 0, 0);
+    caisson.tipLevel = caisson.initialTipLevel = -1;
+    simulation.state.bodies.push_back(caisson);
+    FreeSurface plug;
+    plug.region = FreeSurface::Region::inside;
+    plug.body = "caisson";
+    plug.pressure = constantFunction1(-suction);
+    simulation.scene.freeSurfaces.push_back(std::move(plug));
+    simulation.fill(soil, 2, 2, [](double r, double z) { return z < 0 && !(r > 1 && r < 1.2 && z > -1); });
+    simulation.state.points.addLiquid();
+    const double weight = 0.65 * 1650 * 9.81;
+    simulation.setStress([&](double, double z) {
+        return std::array<double, 4>{weight * z / 3, weight * z, weight * z / 3, 0};
+    });
+    MaterialPoints& points = simulation.state.points;
+    for (std::size_t p = 0; p < points.size(); ++p) {
+        points.porePressure[p] = -9810 * points.z[p];
+    }
+    return simulation;
+}
+
+TEST(SeepageScene, theTwoPhaseStepSettlesToTheSteadySeepage)
+{
+    const double suction = 1e3;
+    Simulation simulation = caissonUnderSuction(suction);
+    simulation.scene.controls.localDamping = 0.3;
+    simulation.start();
+    const std::vector<double> steady = steadyPorePressure(simulation.scene, simulation.state);
+    const MaterialPoints& points = simulation.state.points;
+    std::vector<double> exact(points.size());
+    for (std::size_t p = 0; p < points.size(); ++p) {
+        exact[points.id[p]] = steady[p] + 9810 * points.z[p];
+    }
+    simulation.run(0.3, 0.8);
+    double error = 0, largest = 0;
+    for (std::size_t p = 0; p < points.size(); ++p) {
+        const double excess = points.porePressure[p] + 9810 * points.z[p];
+        error += std::pow(excess - exact[points.id[p]], 2) / static_cast<double>(points.size());
+        largest = std::max(largest, -exact[points.id[p]]);
+    }
+    std::printf(
+        "settled pore pressure: rms difference to steady seepage %.2e of the suction (largest %.3f of it)\n",
+        std::sqrt(error) / suction, largest / suction);
+    EXPECT_LT(std::sqrt(error) / suction, 1e-2);
+    EXPECT_GT(largest / suction, 0.9); // there is a flow at all
+}
+
+TEST(SeepageScene, flowsBalance)
+{
+    const Simulation simulation = caissonUnderSuction(1e3);
+    const SeepageScene setup = seepageScene(simulation.scene, simulation.state, false);
+    const Seepage seepage(simulation.state.mesh, setup.soil, setup.conductivity);
+    const std::vector<double> inflow = seepage.nodalInflow(seepage.steady(setup.given, setup.inflow));
+    double sum = 0, largest = 0;
+    for (const double flow : inflow) {
+        sum += flow;
+        largest = std::max(largest, std::abs(flow));
+    }
+    EXPECT_LT(std::abs(sum) / largest, 1e-10);
+}
+
+} // namespace
+} // namespace caisson::testing
