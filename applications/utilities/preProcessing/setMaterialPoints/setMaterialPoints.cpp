@@ -111,9 +111,8 @@ void run(const fs::path& caseDirectory, const fs::path& dictionaryFile, bool dry
     }
     problems.throwIfAny("case " + caseDirectory.string());
     if (input.porePressure && input.porePressure->seepage) {
-        seeded.points.porePressure =
-            readSeepagePressure(caseDirectory, input.startDirectory.filename().string(), mesh, seeded.points,
-                                input.gravity);
+        seeded.points.porePressure = readSeepagePressure(
+            caseDirectory, input.startDirectory.filename().string(), mesh, seeded.points, input.gravity);
     }
     const std::vector<LoadedPoints> loaded = loadPoints(seeded.points, mesh, input.loadedSurfaces, problems);
     problems.throwIfAny("case " + caseDirectory.string());
