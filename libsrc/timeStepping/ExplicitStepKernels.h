@@ -410,14 +410,15 @@ void ExplicitStep<Shape, phases>::moveBodies(State& state, double dt)
     for (std::size_t b = 0; b < state.bodies.size(); ++b) {
         RigidBody& body = state.bodies[b];
         state.reactions[b].duration += dt;
+        if constexpr (twoPhase) {
+            state.reactions[b].suction = suction(body);
+        }
         if (!body.loadControlled) {
             body.velocity = body.prescribedVelocity(state.time + dt);
             continue;
         }
-        double force = whole * state.reactions[b].force - body.drivingLoad(state.time);
-        if constexpr (twoPhase) {
-            force -= suction(body) * body.enclosedArea(axisymmetric);
-        }
+        const double force = whole * state.reactions[b].force - body.drivingLoad(state.time) -
+                             state.reactions[b].suction * body.enclosedArea(axisymmetric);
         body.velocity += dt * force / body.mass;
     }
 }

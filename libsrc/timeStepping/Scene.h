@@ -72,6 +72,7 @@ struct BodyReaction
     std::array<double, surfaceParts> verticalImpulse{};
     std::array<double, surfaceParts> radialImpulse{};
     double waterImpulse = 0; ///< of the excess pore pressure, vertical; not in those above
+    double suction = 0;      ///< of the water within the body, of the last step [Pa]
     double force = 0;        ///< vertical, of the last step, pore pressure included [N/rad or N/m]
     double duration = 0;     ///< of the collection [s]
     double work = 0;         ///< done by the body on the soil since the start [J/rad or J/m]

@@ -133,6 +133,7 @@ RunOutput::RunOutput(RunTime& runTime, const CaseScene& caseScene, Log& log)
                                            {"lidForce", force}};
         if (state.points.twoPhase()) {
             columns.push_back({"waterForce", force});
+            columns.push_back({"suction", "Pa"});
         }
         BodyOutput output{Monitor(runTime.caseDirectory(), body.name, runTime.startName(), body.name, columns,
                                   caseScene.monitorInterval),
@@ -185,10 +186,12 @@ void RunOutput::recordBodies(State& state)
         report.penetration = body.penetration();
         report.normalisedPenetration = body.penetration() / body.referenceLength;
         report.velocity = body.velocity;
+        report.suction = reaction.suction;
         std::vector<double> values{report.penetration, report.velocity,   report.totalForce, report.tipForce,
                                    report.innerForce,  report.outerForce, report.lidForce};
         if (state.points.twoPhase()) {
             values.push_back(share * reaction.waterImpulse);
+            values.push_back(reaction.suction);
         }
         output.monitor.record(time, values);
         reaction.restartCollection();
