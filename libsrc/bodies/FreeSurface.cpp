@@ -13,6 +13,12 @@ constexpr Keyword keywords[] = {
     {"level", "m", "0", "", "height at which the hydrostatic part rho_w g (level - z) is zero"},
     {"pressure", "Function1", "-", "", "added to the hydrostatic part [Pa], zero if left out"},
     {"suction", "Function1", "-", "", "taken from it [Pa], zero if left out; not together with pressure"},
+    {"pumpFlow", "Function1", "-", "",
+     "water that a pump takes out of the closed void of region inside [m3/s], of time: the suction is then a "
+     "result"},
+    {"compliance", "m3/Pa", "1e-8", "(0, inf)",
+     "volume of water that a change of pressure takes up in the void, for pumpFlow; 1e-8 is 20 m3 of water"},
+    {"sealedFrom", "s", "0", "[0, inf)", "time until which the void is open, for pumpFlow"},
     {"variable", "word", "time", "time penetration",
      "what pressure or suction is a function of [s or m]; penetration is that of the body"},
 };
@@ -109,6 +115,15 @@ std::vector<FreeSurface> readFreeSurfaces(const Dictionary& freeSurfaces,
             surface.pressure =
                 std::make_shared<Negative>(readFunction1(*entry.dictionary, "suction", problems));
         }
+        if (reader.has("pumpFlow")) {
+            surface.pumpFlow = readFunction1(*entry.dictionary, "pumpFlow", problems);
+            if (surface.region != FreeSurface::Region::inside) {
+                reader.problem("pumpFlow", "free surface '" + surface.name + "' is not that of a closed void",
+                               "region inside; body caisson;");
+            }
+        }
+        surface.compliance = reader.number("compliance");
+        surface.sealedFrom = reader.number("sealedFrom");
         surfaces.push_back(std::move(surface));
     }
     return surfaces;

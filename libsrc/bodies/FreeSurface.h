@@ -22,7 +22,12 @@ struct FreeSurface
     std::string body;                          ///< for inside and outside
     double level = 0;                          ///< where the hydrostatic part is zero [m]
     std::shared_ptr<const Function1> pressure; ///< added to it [Pa]; suction is negative
-    Variable variable = Variable::time;        ///< of `pressure` [s], or penetration of `body` [m]
+    /// A pump that takes water out of a closed void [m3/s or m2/s, whole body of revolution], of time; the
+    /// pressure follows from what the soil and the body leave of the void: compliance dp/dt = inflow - flow.
+    std::shared_ptr<const Function1> pumpFlow;
+    double compliance = 0;              ///< volume of water that a pressure takes up [m3/Pa or m2/Pa]
+    double sealedFrom = 0;              ///< time until which the void is open [s]
+    Variable variable = Variable::time; ///< of `pressure` [s], or penetration of `body` [m]
 };
 
 /// The free surface that voids at a radius belong to: index of the first that holds, or -1.

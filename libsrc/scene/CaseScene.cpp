@@ -122,6 +122,16 @@ void readLiquid(const std::filesystem::path& caseDirectory, const std::string& s
             names.push_back(body.name);
         }
         result.scene.freeSurfaces = readFreeSurfaces(*surfaces, names, problems);
+        const double bottom = *std::ranges::min_element(result.state.mesh.z);
+        for (const FreeSurface& surface : result.scene.freeSurfaces) {
+            if (surface.level < bottom) {
+                problems.add(
+                    surfaces->where(),
+                    "the water of free surface '" + surface.name +
+                        "' has its level at z = " + std::to_string(surface.level) + " m, below the mesh",
+                    "the mesh begins at z = " + std::to_string(bottom) + " m: all of it is under water");
+            }
+        }
         for (const FreeSurface& surface : result.scene.freeSurfaces) {
             for (const RigidBody& body : result.state.bodies) {
                 if (surface.region != FreeSurface::Region::all && body.name == surface.body &&
@@ -232,6 +242,9 @@ std::map<std::string, std::vector<double>> keptNumbers(const State& state)
         numbers.insert(numbers.end(), reaction.radialImpulse.begin(), reaction.radialImpulse.end());
         numbers.push_back(reaction.waterImpulse);
         numbers.push_back(reaction.force);
+    }
+    if (!state.pumped.empty()) {
+        kept["pumped"] = state.pumped;
     }
     return kept;
 }
@@ -357,6 +370,10 @@ CaseScene readCaseScene(const std::filesystem::path& caseDirectory, const std::f
                         reaction.radialImpulse.begin());
             reaction.waterImpulse = found->second[4 + 2 * surfaceParts];
             reaction.force = found->second.back();
+        }
+        if (const auto pumped = kept.find("pumped");
+            pumped != kept.end() && pumped->second.size() == scene.freeSurfaces.size()) {
+            state.pumped = pumped->second;
         }
         if (scene.movingBody >= 0) {
             const RigidBody& body = state.bodies[scene.movingBody];

@@ -112,7 +112,9 @@ SeepageScene seepageScene(const Scene& scene, const State& state, bool compressi
             within = within || std::abs(centre) < body.innerRadius();
         }
         const double pressure =
-            s >= 0 ? excessPressure(scene.freeSurfaces[s], state.bodies, state.time, unitWeight) : 0;
+            s < 0 ? 0
+                  : excessPressure(scene.freeSurfaces[s], state.bodies, state.time, unitWeight) +
+                        (state.pumped.empty() ? 0 : state.pumped[s]);
         for (int k = 0; k < mesh.corners; ++k) {
             const int i = mesh.node(c, k);
             if (soilNode[i]) {

@@ -95,6 +95,7 @@ private:
     [[nodiscard]] double suction(const RigidBody& body) const;
     void mapLiquidToNodes(const State& state, int c);
     void mapVoidToNodes(int c);
+    void pump(State& state, double dt);
     void solveTwoPhaseNode(int i, const Corner& solid, double dt);
     void solveLiquidAgain(int i, const std::array<double, 2>& direction);
     void applyLiquidConditions(double time, bool remapped);
@@ -160,6 +161,8 @@ private:
     std::vector<double> solidShare_;               ///< per material: of the solid in the saturated mass
     std::vector<int> freeSurface_;                 ///< per cell: the free surface that its void would be of
     std::vector<int> voidCells_;                   ///< empty cells with active nodes
+    bool pumped_ = false;                          ///< a free surface has a pump
+    std::vector<std::array<double, 2>> voidForce_; ///< per corner, of a unit pressure in the void; with pumps
     std::vector<double> surfacePressure_;          ///< per free surface: excess pressure now [Pa]
     std::vector<std::array<double, 2>> wallArea_;  ///< per node: normals of bodies into the soil times area
     std::vector<std::array<double, 2>> waterLoad_; ///< per node: of pressures on patches

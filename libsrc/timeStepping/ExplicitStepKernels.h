@@ -130,6 +130,13 @@ ExplicitStep<Shape, phases>::ExplicitStep(const Scene& scene, State& state)
         cellLiquidRate_.assign(cells, 0);
         pressureShape_.resize(state.points.size());
         surfacePressure_.resize(scene.freeSurfaces.size());
+        for (const FreeSurface& surface : scene.freeSurfaces) {
+            pumped_ = pumped_ || surface.pumpFlow;
+        }
+        if (pumped_) {
+            voidForce_.resize(cells * corners);
+        }
+        state.pumped.resize(scene.freeSurfaces.size(), 0);
         findFreeSurfaces(state);
     }
     if constexpr (twoPhase) {
@@ -237,6 +244,9 @@ void ExplicitStep<Shape, phases>::classifyCells(State& state)
                 std::fill_n(cornerSums_.begin() + c * corners, corners, Corner{});
                 if constexpr (twoPhase) {
                     std::fill_n(liquidCorners_.begin() + c * corners, corners, LiquidCorner{});
+                    if (pumped_) {
+                        std::fill_n(voidForce_.begin() + c * corners, corners, std::array<double, 2>{});
+                    }
                 }
             }
         }
@@ -385,6 +395,11 @@ void ExplicitStep<Shape, phases>::advance(State& state, double dt)
     }
     mapToNodes(state);
     solveNodes(state, dt);
+    if constexpr (twoPhase) {
+        if (pumped_) {
+            pump(state, dt);
+        }
+    }
     for (std::size_t b = 0; b < state.bodies.size(); ++b) {
         state.reactions[b].force = (state.reactions[b].totalVerticalImpulse() - impulseBefore_[b]) / dt;
     }

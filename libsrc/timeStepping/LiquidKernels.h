@@ -28,7 +28,8 @@ template <class Shape, int phases>
 void ExplicitStep<Shape, phases>::updateSurfacePressures(const State& state)
 {
     for (std::size_t s = 0; s < surfacePressure_.size(); ++s) {
-        surfacePressure_[s] = excessPressure(scene_.freeSurfaces[s], state.bodies, state.time, unitWeight_);
+        surfacePressure_[s] =
+            excessPressure(scene_.freeSurfaces[s], state.bodies, state.time, unitWeight_) + state.pumped[s];
     }
 }
 
@@ -171,6 +172,12 @@ void ExplicitStep<Shape, phases>::mapLiquidToNodes(const State& state, int c)
                 sum[k].forceR += mean * br[k];
                 sum[k].forceZ += mean * bz[k];
             }
+            if (pumped_) {
+                const bool open = freeSurface_[c] >= 0 && bySurface_[c];
+                voidForce_[c * corners + k] = {
+                    open ? dilatation_[c].volume * dilatation_[c].br[k] - br[k] : 0,
+                    open ? dilatation_[c].volume * dilatation_[c].bz[k] - bz[k] : 0};
+            }
             if (beyond != 0) { // the rest of the cell holds the water of the free surface
                 sum[k].forceR += beyond * (dilatation_[c].volume * dilatation_[c].br[k] - br[k]);
                 sum[k].forceZ += beyond * (dilatation_[c].volume * dilatation_[c].bz[k] - bz[k]);
@@ -196,6 +203,49 @@ void ExplicitStep<Shape, phases>::mapVoidToNodes(int c)
         LiquidCorner& corner = liquidCorners_[c * corners + k];
         corner.forceR = pressure * dilatation_[c].volume * dilatation_[c].br[k];
         corner.forceZ = pressure * dilatation_[c].volume * dilatation_[c].bz[k];
+        if (pumped_) {
+            voidForce_[c * corners + k] = {dilatation_[c].volume * dilatation_[c].br[k],
+                                           dilatation_[c].volume * dilatation_[c].bz[k]};
+        }
+    }
+}
+
+/// Balance of the water in closed voids. What soil and water push into a void is minus the power of a unit
+/// pressure in it: the same integral as its force.
+template <class Shape, int phases>
+void ExplicitStep<Shape, phases>::pump(State& state, double dt)
+{
+    const double whole = axisymmetric ? 2 * std::numbers::pi : 1.0;
+    for (std::size_t s = 0; s < scene_.freeSurfaces.size(); ++s) {
+        const FreeSurface& surface = scene_.freeSurfaces[s];
+        if (!surface.pumpFlow || state.time < surface.sealedFrom) {
+            continue;
+        }
+        double inflow = 0;
+        const auto add = [&](int c) {
+            for (int k = 0; k < corners && freeSurface_[c] == static_cast<int>(s); ++k) {
+                const int i = cellNodes_[c * corners + k];
+                const double n = liquidNodes_[i].porosity;
+                const double r = nodes_[i].vr + n * liquidNodes_[i].relativeVr;
+                const double z = nodes_[i].vz + n * liquidNodes_[i].relativeVz;
+                const auto& force = voidForce_[c * corners + k];
+                inflow -= whole * (force[0] * r + force[1] * z);
+            }
+        };
+        for (const int c : activeCells_) {
+            if (bySurface_[c]) {
+                add(c);
+            }
+        }
+        for (const int c : voidCells_) {
+            add(c);
+        }
+        for (const RigidBody& body : state.bodies) {
+            if (body.name == surface.body) {
+                inflow -= body.velocity * body.enclosedArea(axisymmetric);
+            }
+        }
+        state.pumped[s] += dt * (inflow - surface.pumpFlow->value(state.time)) / surface.compliance;
     }
 }
 

@@ -104,6 +104,7 @@ struct State
     MaterialPoints points;
     std::vector<RigidBody> bodies;
     std::vector<BodyReaction> reactions; ///< one per body
+    std::vector<double> pumped;          ///< per free surface: pressure that its pump has made [Pa]
     std::vector<unsigned char> filled;   ///< per cell: integrated as filled (has hysteresis)
     std::vector<double> cellDivergence;  ///< per cell, rate [1/s]; kept for the bulk viscosity alone
     double time = 0;

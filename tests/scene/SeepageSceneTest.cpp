@@ -78,6 +78,29 @@ TEST(SeepageScene, theTwoPhaseStepSettlesToTheSteadySeepage)
     EXPECT_GT(largest / suction, 0.9); // there is a flow at all
 }
 
+/// A pump that takes out what steady seepage brings at a suction arrives at that suction.
+TEST(SeepageScene, aPumpSettlesAtTheSuctionWhoseSeepageItDelivers)
+{
+    const double suction = 1e3;
+    Simulation simulation = caissonUnderSuction(suction);
+    const SeepageScene setup = seepageScene(simulation.scene, simulation.state, false);
+    const Seepage seepage(simulation.state.mesh, setup.soil, setup.conductivity);
+    const std::vector<double> inflow = seepage.nodalInflow(seepage.steady(setup.given, setup.inflow));
+    double flow = 0;
+    for (const int i : seepage.nodes()) {
+        flow -= setup.insideSurface[i] ? 2 * M_PI * inflow[i] : 0;
+    }
+    FreeSurface& plug = simulation.scene.freeSurfaces[0];
+    plug.pressure = nullptr;
+    plug.pumpFlow = constantFunction1(flow);
+    plug.compliance = 1e-7;
+    simulation.scene.controls.localDamping = 0.3;
+    simulation.start();
+    simulation.run(0.5, 0.8);
+    std::printf("pump of %.4g m3/s: suction %.1f Pa (%.1f)\n", flow, -simulation.state.pumped[0], suction);
+    EXPECT_NEAR(-simulation.state.pumped[0] / suction, 1, 2e-2);
+}
+
 TEST(SeepageScene, flowsBalance)
 {
     const Simulation simulation = caissonUnderSuction(1e3);

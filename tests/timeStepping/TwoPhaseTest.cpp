@@ -250,6 +250,35 @@ TEST(Flow, laggedDragHasTheSameSteadyFlow)
     EXPECT_NEAR(error, 0, 1e-3);
 }
 
+/// Water pressed into a closed column: what flows in is compressed, or widens the pores.
+TEST(Flow, whatFlowsInIsStored)
+{
+    const double bulk = 2e7, discharge = 1e-4, duration = 1;
+    Simulation simulation = column(10, false, Geometry::axisymmetric, saturatedSoil(6e7, 0.25, 1e-10, bulk),
+                                   "type zeroGradient;", "type impermeable;");
+    simulation.setPressures("right { type impermeable; } top { type impermeable; } "
+                            "bottom { type prescribedFlux; uniformValue 1e-4; }");
+    simulation.start();
+    const auto stored = [&] {
+        const MaterialPoints& points = simulation.state.points;
+        double sum = 0;
+        for (std::size_t p = 0; p < points.size(); ++p) {
+            // Pores are what the grains, which keep their volume, leave.
+            const double grains =
+                points.mass[p] / (porosity * liquidDensity + (1 - porosity) * solidDensity) * (1 - porosity);
+            sum += (points.volume[p] - grains) * (1 + points.porePressure[p] / bulk);
+        }
+        return sum;
+    };
+    const double before = stored();
+    simulation.run(duration, 0.8);
+    const double radius = 0.1;
+    const double inflow = discharge * duration * radius * radius / 2; // per radian
+    report("closed column: stored/inflow - 1", (stored() - before) / inflow - 1, 1e-3);
+    EXPECT_NEAR((stored() - before) / inflow, 1, 1e-3);
+    EXPECT_GT(simulation.state.points.porePressure[0], 100);
+}
+
 /// V23: an upward gradient of gamma'/gamma_w takes the whole weight of the soil.
 TEST(Flow, theCriticalGradientTakesTheWeightOfTheSoil)
 {

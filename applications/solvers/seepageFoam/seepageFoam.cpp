@@ -76,7 +76,9 @@ Figures readOff(const Seepage& seepage, const SeepageScene& setup, const State& 
         double& flow = setup.insideSurface[i]    ? figures.plugFlow
                        : setup.outsideSurface[i] ? figures.seabedFlow
                                                  : figures.patchFlow;
-        flow -= whole * inflow[i];
+        // Where nothing is given only what is fed in crosses the boundary; the rest of transient flow is
+        // storage.
+        flow -= whole * (std::isnan(setup.given[i]) ? setup.inflow[i] : inflow[i]);
     }
     double nearest = std::numeric_limits<double>::max();
     double farthest = -1;
