@@ -65,6 +65,15 @@ private:
         double volume, poreVolume, pressureVolume; ///< integrals of N, N n and N times excess pore pressure
     };
 
+    /// What the kernels need of a material for its liquid.
+    struct LiquidProperties
+    {
+        double grainVolume; ///< per saturated mass at the start [m3/kg]
+        double density, bulkModulus, viscosity, leastPressure;
+        double constantDrag; ///< viscosity over permeability, where that is constant [Pa s/m2]
+        bool kozenyCarman;
+    };
+
     /// Nodal result for the liquid, and what is needed to solve it again where the solid is held.
     struct LiquidNode
     {
@@ -110,8 +119,7 @@ private:
     /// Of a point now: the grains keep their volume.
     [[nodiscard]] double porosity(const MaterialPoints& points, int p) const
     {
-        const int m = points.material[p];
-        return 1 - points.mass[p] * solidShare_[m] / (scene_.materials[m].solidDensity * points.volume[p]);
+        return 1 - points.mass[p] * liquid_[points.material[p]].grainVolume / points.volume[p];
     }
     template <bool velocities, bool strains>
     void mapCellToPoints(State& state, double dt, int c);
@@ -158,6 +166,7 @@ private:
     std::vector<LiquidCorner> liquidCorners_;
     std::vector<LiquidNode> liquidNodes_;
     std::vector<std::array<bool, 2>> solidHeld_;   ///< per node of the liquid's boundary and direction
+    std::vector<LiquidProperties> liquid_;         ///< per material
     std::vector<double> solidShare_;               ///< per material: of the solid in the saturated mass
     std::vector<int> freeSurface_;                 ///< per cell: the free surface that its void would be of
     std::vector<int> voidCells_;                   ///< empty cells with active nodes

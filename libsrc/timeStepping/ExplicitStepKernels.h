@@ -86,6 +86,12 @@ ExplicitStep<Shape, phases>::ExplicitStep(const Scene& scene, State& state)
                                       : std::sqrt(material.law->pWaveModulus() / material.inertialDensity()));
         solidShare_.push_back(
             twoPhase ? (1 - material.porosity) * material.solidDensity / material.inertialDensity() : 1);
+        if constexpr (twoPhase) {
+            liquid_.push_back(
+                {solidShare_.back() / material.solidDensity, material.liquidDensity,
+                 material.liquidBulkModulus, material.liquidViscosity, material.cavitationPressure,
+                 material.liquidViscosity / material.intrinsicPermeability, material.kozenyCarman});
+        }
     }
     inside_.assign(cells, 0);
     // Surfaces are found where constant/polyMesh has the bodies: the same in a restarted run.
@@ -1070,10 +1076,10 @@ void ExplicitStep<Shape, phases>::mapCellToPoints(State& state, double dt, int c
             const double e = dt * trace;
             if constexpr (twoPhase) {
                 // Storage [Jassim, Stolle & Vermeer 2013]: p' = -(Kw/n)((1-n) div v + n div w).
-                const Material& material = scene_.materials[points.material[p]];
                 const double n = porosity(points, p);
                 const double flow = (1 - n) * trace + n * (sharedRate ? liquidRate : ownLiquid);
-                double pressure = points.porePressure[p] - dt * material.liquidBulkModulus / n * flow;
+                double pressure =
+                    points.porePressure[p] - dt * liquid_[points.material[p]].bulkModulus / n * flow;
                 if (sharedRate) {
                     double nodal = 0;
                     for (int k = 0; k < corners; ++k) {
@@ -1141,7 +1147,7 @@ void ExplicitStep<Shape, phases>::mapCellToPoints(State& state, double dt, int c
         const double shift = sharedRate ? (excessSum - shapeSum) / volumeSum : 0;
         for (const int* i = first; i != last; ++i) {
             const int p = *i;
-            const double least = scene_.materials[points.material[p]].cavitationPressure;
+            const double least = liquid_[points.material[p]].leastPressure;
             const double pressure = sharedRate ? pressureShape_[p] + shift : points.porePressure[p];
             points.porePressure[p] = std::max(pressure, least);
         }
@@ -1173,9 +1179,8 @@ void ExplicitStep<Shape, phases>::addRemappedMomentum(const State& state, int c)
             out[k].momentumZ += values.N[k] * m * points.vz[p];
         }
         if constexpr (twoPhase) {
-            const Material& material = scene_.materials[points.material[p]];
             const double liquid = inertiaScale_[c] * fullness_[c] * porosity(points, p) *
-                                  material.liquidDensity * points.volume[p];
+                                  liquid_[points.material[p]].density * points.volume[p];
             for (int k = 0; k < corners; ++k) {
                 LiquidCorner& corner = liquidCorners_[c * corners + k];
                 corner.momentumR += values.N[k] * liquid * (points.wr[p] - points.vr[p]);

@@ -88,11 +88,14 @@ void ExplicitStep<Shape, phases>::mapLiquidToNodes(const State& state, int c)
     for (const int* i = pointCells_.begin(c); i != pointCells_.end(c); ++i) {
         const int p = *i;
         Shape::evaluate(cell, points.r[p], points.z[p], values);
-        const Material& material = scene_.materials[points.material[p]];
+        const LiquidProperties& properties = liquid_[points.material[p]];
         const double n = porosity(points, p);
         const double v = points.volume[p];
-        const double mass = n * material.liquidDensity * v;
-        const double drag = n * n * material.liquidViscosity / material.permeability(n) * v;
+        const double mass = n * properties.density * v;
+        const double drag = n * n * v *
+                            (properties.kozenyCarman
+                                 ? properties.viscosity / scene_.materials[points.material[p]].permeability(n)
+                                 : properties.constantDrag);
         const double pressure = points.porePressure[p] - unitWeight_ * points.z[p];
         for (int k = 0; k < corners; ++k) {
             const double N = values.N[k];
@@ -133,14 +136,14 @@ void ExplicitStep<Shape, phases>::mapLiquidToNodes(const State& state, int c)
     }
     const double mean = pressureVolume / volume;
     if (full) {
-        const shapes::Moments<corners> m = Shape::moments(cell);
+        const auto& dilatation = dilatation_[c];
         for (int k = 0; k < corners; ++k) {
-            sum[k].forceR = m.volume * mean * (m.gr[0][k] + m.h[0][k]);
-            sum[k].forceZ = m.volume * mean * m.gz[0][k];
-            sum[k].pressureVolume = m.volume * mean * m.n[k];
+            sum[k].forceR = dilatation.volume * mean * dilatation.br[k];
+            sum[k].forceZ = dilatation.volume * mean * dilatation.bz[k];
         }
         if constexpr (corners == 4) {
             if (!meanDilatation) { // slopes as of the stress (mapCellToNodes)
+                const shapes::Moments<corners> m = Shape::moments(cell);
                 constexpr double ridge = 0.02;
                 const double x = wx / volume;
                 const double y = wy / volume;
@@ -160,10 +163,12 @@ void ExplicitStep<Shape, phases>::mapLiquidToNodes(const State& state, int c)
                 }
             }
         }
+        // The force takes the whole cell, so mean pressure and porosity of a node do, too.
+        const double whole = dilatation.volume / volume;
         for (int k = 0; k < corners; ++k) {
-            // The force takes the whole cell, so mean pressure and porosity of a node do, too.
-            sum[k].poreVolume *= m.volume * m.n[k] / sum[k].volume;
-            sum[k].volume = m.volume * m.n[k];
+            sum[k].poreVolume *= whole;
+            sum[k].volume *= whole;
+            sum[k].pressureVolume = mean * sum[k].volume;
         }
     } else {
         const double beyond = freeSurface_[c] >= 0 && bySurface_[c] ? surfacePressure_[freeSurface_[c]] : 0;
