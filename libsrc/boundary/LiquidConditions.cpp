@@ -42,24 +42,28 @@ PatchPressure readCondition(const Dictionary& dictionary, const std::string& typ
     const std::vector<Keyword> keywords = patchPressureKeywords(type);
     const KeywordReader reader(dictionary, keywords, "patch '" + patch + "'", problems);
     PatchPressure condition;
+    const std::string needed = type == "fixedValue"                                      ? "value"
+                               : type == "uniformFixedValue" || type == "prescribedFlux" ? "uniformValue"
+                                                                                         : "";
+    if (!needed.empty() && !reader.has(needed)) {
+        reader.problem(needed, "patch '" + patch + "' of type " + type + " has no '" + needed + "'",
+                       needed == "value" ? "value uniform 0;" : "uniformValue 0;");
+        return condition;
+    }
     if (type == "fixedValue") {
         condition.kind = PatchPressure::Kind::pressure;
         const Entry* entry = dictionary.find("value");
-        const bool uniform = entry && entry->tokens.size() == 2 && entry->tokens[0].text == "uniform";
-        if (entry && !uniform) {
+        const bool uniform = entry->tokens.size() == 2 && entry->tokens[0].text == "uniform";
+        if (!uniform) {
             reader.problem("value", "'value' of patch '" + patch + "' is not uniform", "value uniform 0;");
-        } else if (entry) {
-            try {
-                condition.value = constantFunction1(std::stod(entry->tokens[1].text));
-            } catch (const std::exception&) {
-                reader.problem("value", "'" + entry->tokens[1].text + "' is no number", "value uniform 0;");
-            }
+        } else if (entry->tokens[1].kind != Token::Kind::number) {
+            reader.problem("value", "'" + entry->tokens[1].text + "' is no number", "value uniform 0;");
+        } else {
+            condition.value = constantFunction1(entry->tokens[1].number);
         }
     } else if (type == "uniformFixedValue" || type == "prescribedFlux") {
         condition.kind = type == "prescribedFlux" ? PatchPressure::Kind::flux : PatchPressure::Kind::pressure;
-        if (reader.has("uniformValue")) {
-            condition.value = readFunction1(dictionary, "uniformValue", problems);
-        }
+        condition.value = readFunction1(dictionary, "uniformValue", problems);
     } else if (type == "hydrostatic") {
         condition.kind = PatchPressure::Kind::pressure;
         condition.unitWeight = unitWeight;

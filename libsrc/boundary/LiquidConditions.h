@@ -10,15 +10,15 @@ namespace caisson {
 
 /// What one patch of 0/p asks of the pore liquid. Pressures are compression positive [Pa].
 ///
-/// | type                      | meaning                                        | keys |
-/// |---------------------------|------------------------------------------------|----------------------------|
-/// | fixedValue                | given pressure                                 | value uniform p | |
-/// uniformFixedValue         | given pressure, Function1 of time              | uniformValue               |
-/// | hydrostatic               | rho_w g (level - z) + pressure(time)           | level, pressure (optional)
-/// | | prescribedFlux            | discharge into the soil per area [m/s] of time | uniformValue | |
-/// impermeable, zeroGradient | no flow                                        |                            |
-/// | slip, symmetryPlane       | no flow                                        | | | wedge, empty | the
-/// planes of the 2-D model                    |                            |
+/// | type                      | meaning                                | keys                       |
+/// |---------------------------|----------------------------------------|----------------------------|
+/// | fixedValue                | given pressure                         | value uniform p            |
+/// | uniformFixedValue         | given pressure, Function1 of time      | uniformValue               |
+/// | hydrostatic               | rho_w g (level - z) + pressure(time)   | level, pressure (optional) |
+/// | prescribedFlux            | discharge into the soil per area [m/s] | uniformValue               |
+/// | impermeable, zeroGradient | no flow                                |                            |
+/// | slip, symmetryPlane       | no flow                                |                            |
+/// | wedge, empty              | the planes of the 2-D model            |                            |
 struct PatchPressure
 {
     enum class Kind { impermeable, pressure, flux };
