@@ -250,6 +250,44 @@ TEST(Flow, laggedDragHasTheSameSteadyFlow)
     EXPECT_NEAR(error, 0, 1e-3);
 }
 
+/// Largest velocity of a column with lagged drag after 3000 steps of `share` of the stable step, over that at
+/// the start.
+double laggedGrowth(double permeability, double share)
+{
+    Simulation simulation =
+        column(20, false, Geometry::planeStrain, saturatedSoil(6e7, 0.25, permeability, 2e7),
+               "type zeroGradient;", "type fixedValue; value uniform 0;");
+    simulation.scene.controls.drag = SolutionControls::Drag::lagged;
+    MaterialPoints& points = simulation.state.points;
+    for (std::size_t p = 0; p < points.size(); ++p) {
+        points.vz[p] = 1e-6 * std::sin(40 * points.z[p]);
+        points.wz[p] = -1e-6 * std::cos(50 * points.z[p]);
+    }
+    simulation.start();
+    const double dt = share * simulation.step->stableStep(simulation.state).step;
+    double largest = 0;
+    for (int i = 0; i < 3000 && largest < 1; ++i) {
+        simulation.step->advance(simulation.state, dt);
+        for (std::size_t p = 0; p < points.size(); ++p) {
+            largest = std::max(largest, std::abs(points.wz[p]));
+        }
+    }
+    return largest / 1e-6;
+}
+
+TEST(Drag, theStepOfLaggedDragIsSafeAndNotMuchTooSmall)
+{
+    for (const double permeability : {1e-11, 1e-12, 1e-13}) {
+        const double within = laggedGrowth(permeability, 0.98);
+        const double beyond = laggedGrowth(permeability, 1.5);
+        std::printf("lagged drag, permeability %.0e: largest velocity grows by %.2g within the limit, %.2g "
+                    "at 1.5 of it\n",
+                    permeability, within, beyond);
+        EXPECT_LT(within, 3) << "permeability " << permeability;
+        EXPECT_GT(beyond, 1e3) << "permeability " << permeability;
+    }
+}
+
 /// Water pressed into a closed column: what flows in is compressed, or widens the pores.
 TEST(Flow, whatFlowsInIsStored)
 {
