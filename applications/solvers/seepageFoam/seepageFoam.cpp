@@ -165,6 +165,10 @@ int run(const std::filesystem::path& caseDirectory, bool dryRun, const std::stri
     if (caseScene.scene.controls.phases != 2) {
         problems.add({"system/mpmSolution", 0}, "the case has one phase, so no water flows", "phases 2;");
     }
+    if (controls.transient && controls.endTime <= runTime.time()) {
+        problems.add({"system/seepageDict", 0},
+                     text("endTime %g s is not after the start at %g s", controls.endTime, runTime.time()));
+    }
     problems.throwIfAny(subject);
     State& state = caseScene.state;
     const Scene& scene = caseScene.scene;
