@@ -7,18 +7,14 @@
 
 namespace caisson {
 
-/// What one patch of 0/U asks of the solid's velocity.
-///
-/// | type               | meaning                                                    | keys |
-/// |--------------------|------------------------------------------------------------|-----------------------|
-/// | fixedValue         | all components given                                       | value uniform (x y z)
-/// | | uniformFixedValue  | all components given as a Function1 of time                | uniformValue | |
-/// slip               | no velocity normal to the patch (roller), tangential free   |                       |
-/// | symmetryPlane      | the same                                                   | | | zeroGradient |
-/// free                                                       |                       | | traction | traction
-/// vector [Pa] as a Function1 of time, on the edges   | uniformValue          | | pressure           |
-/// pressure [Pa] as a Function1 of time, normal into the soil  | uniformValue          | | wedge, empty | the
-/// planes of the 2-D model                                 |                       |
+/// What one patch of 0/U asks of the solid's velocity. Types and their keys:
+/// - fixedValue: all components given; `value uniform (x y z)`
+/// - uniformFixedValue: all components given as a Function1 of time; `uniformValue`
+/// - slip, symmetryPlane: no velocity normal to the patch (roller), tangential free
+/// - zeroGradient: free
+/// - traction: traction vector on the edges [Pa], Function1 of time; `uniformValue`
+/// - pressure: pressure [Pa], normal into the soil, Function1 of time; `uniformValue`
+/// - wedge, empty: the planes of the 2-D model
 struct PatchVelocity
 {
     enum class Kind { free, fixed, slip, traction, pressure };
