@@ -7,7 +7,8 @@
 
 namespace caisson {
 
-/// Explicit step of one-phase soil on cells of one Shape (see CellShapes.h).
+/// Explicit step of soil on cells of one Shape (see CellShapes.h): of one phase, or of two, soil and liquid
+/// with velocities of their own (LiquidKernels.h).
 ///
 /// Order of a step: masses, momenta and forces of the points go to the nodes; the nodes are solved with
 /// boundary conditions and contact; velocities and places of the points are updated (FLIP share, places with
@@ -110,6 +111,8 @@ private:
     void applyLiquidConditions(double time, bool remapped);
     void applyConditions(double time, bool remapped);
     void applyContact(State& state, double dt, bool remapped);
+    template <class Touch>
+    void touchFaces(const RigidBody& body, const SurfaceNode& contact, const Touch& touch) const;
     void touchTwoPhase(const RigidBody& body, BodyReaction& reaction, const SurfaceNode& contact, double dt,
                        bool remapped);
     void mapToPoints(State& state, double dt);
@@ -149,6 +152,7 @@ private:
     std::vector<double> gravityShare_; ///< per material: weighing over inertial density
     std::vector<double> waveSpeed_;    ///< per material
     std::vector<double> density_;      ///< per material, inertial
+    std::vector<double> solidShare_;   ///< per material: of the solid in the inertial density; 1 of one phase
 
     PointCells pointCells_;
     std::vector<unsigned char> occupied_;
@@ -167,7 +171,6 @@ private:
     std::vector<LiquidNode> liquidNodes_;
     std::vector<std::array<bool, 2>> solidHeld_;   ///< per node of the liquid's boundary and direction
     std::vector<LiquidProperties> liquid_;         ///< per material
-    std::vector<double> solidShare_;               ///< per material: of the solid in the saturated mass
     std::vector<int> freeSurface_;                 ///< per cell: the free surface that its void would be of
     std::vector<int> voidCells_;                   ///< empty cells with active nodes
     bool pumped_ = false;                          ///< a free surface has a pump
@@ -177,13 +180,13 @@ private:
     std::vector<std::array<double, 2>> waterLoad_; ///< per node: of pressures on patches
     std::vector<double> givenPressure_;            ///< per node: excess pressure of a boundary, or NaN
     std::vector<double> pressureShape_;            ///< per point: pressure interpolated from the nodes
-    mutable std::vector<double> cellPressure_, cellAverage_, ofNodes_; ///< of the filter
-    double unitWeight_ = 0;                            ///< of the liquid, along z [N/m3]: negative
-    std::vector<double> cellLiquidRate_;               ///< as cellRate_, for the liquid
-    std::vector<double> loadedArea_;                   ///< per load: of its points (see loadedAreas)
-    std::vector<std::array<double, 2>> pointTraction_; ///< per load, now [Pa]
-    std::vector<double> cellRate_; ///< dilatation rate used by the points of the cell (nodal average)
-    std::vector<double> nodeRate_;
+    mutable std::vector<double> cellPressure_, cellAverage_; ///< of the filter
+    double unitWeight_ = 0;                                  ///< of the liquid, along z [N/m3]: negative
+    std::vector<double> cellLiquidRate_;                     ///< as cellRate_, for the liquid
+    std::vector<double> loadedArea_;                         ///< per load: of its points (see loadedAreas)
+    std::vector<std::array<double, 2>> pointTraction_;       ///< per load, now [Pa]
+    std::vector<double> cellRate_;        ///< dilatation rate used by the points of the cell (nodal average)
+    mutable std::vector<double> ofNodes_; ///< of averageOverNodes
     std::array<std::vector<double>, 4> strain_; ///< increments of the step, per point
     std::vector<double> spin_;
     std::vector<double*> statePointers_;

@@ -37,6 +37,30 @@ inline int firstCorner(const BackgroundMesh& mesh, int cell)
     return first;
 }
 
+/// Second moments of the points of a cell about their centre, in local coordinates, and the slopes over the
+/// cell of a quantity with the first moments cx, cy. The ridge keeps slopes from being extrapolated out of a
+/// cluster of points.
+struct Spread
+{
+    static constexpr double ridge = 0.02;
+
+    Spread(double inXi, double inEta, double mixed)
+        : xx(inXi), yy(inEta), xy(mixed), determinant((xx + ridge) * (yy + ridge) - xy * xy)
+    {
+    }
+
+    [[nodiscard]] double slopeXi(double cx, double cy) const
+    {
+        return (cx * (yy + ridge) - cy * xy) / determinant;
+    }
+    [[nodiscard]] double slopeEta(double cx, double cy) const
+    {
+        return (cy * (xx + ridge) - cx * xy) / determinant;
+    }
+
+    double xx, yy, xy, determinant;
+};
+
 /// Fastest wave of soil and liquid without drag between them [m/s]: sqrt of the largest eigenvalue of the
 /// stiffness over the densities of the two phases. Drag slows it down to that of the undrained soil at most.
 inline double fastWave(const Material& material)
@@ -125,7 +149,6 @@ ExplicitStep<Shape, phases>::ExplicitStep(const Scene& scene, State& state)
     loadedArea_ = loadedAreas(state.points, scene.pointLoads.size(), mesh.geometry);
     pointTraction_.resize(scene.pointLoads.size());
     cellRate_.assign(cells, 0);
-    nodeRate_.assign(mesh.nodes(), 0);
     if constexpr (twoPhase) {
         liquidCorners_.resize(cells * corners);
         liquidNodes_.resize(mesh.nodes());
@@ -389,11 +412,11 @@ template <class Shape, int phases>
 void ExplicitStep<Shape, phases>::advance(State& state, double dt)
 {
     scaleInertia(state);
-    if (state.step == 0) {
-        staggerStrain(state, dt);
-    }
     if constexpr (twoPhase) {
         updateSurfacePressures(state);
+    }
+    if (state.step == 0) {
+        staggerStrain(state, dt);
     }
     moveBodies(state, dt);
     for (std::size_t b = 0; b < state.bodies.size(); ++b) {
@@ -580,22 +603,17 @@ void ExplicitStep<Shape, phases>::mapCellToNodes(State& state, int c)
             const double known[4] = {ratio * weight, weight, ratio * weight, 0};
             const double x = wx * inverse;
             const double y = wy * inverse;
-            // The ridge keeps slopes from being extrapolated out of a cluster of points.
-            constexpr double ridge = 0.02;
-            const double xx = wxx * inverse - x * x;
-            const double yy = wyy * inverse - y * y;
-            const double xy = wxy * inverse - x * y;
-            const double determinant = (xx + ridge) * (yy + ridge) - xy * xy;
+            const kernels::Spread spread(wxx * inverse - x * x, wyy * inverse - y * y, wxy * inverse - x * y);
             double slopeXi[4];
             double slopeEta[4];
             for (int j = 0; j < 4; ++j) {
                 const double knownXi = known[j] * riseXi;
                 const double knownEta = known[j] * riseEta;
                 const double mean = s[j] * inverse;
-                const double cx = sx[j] * inverse - x * mean - knownXi * xx - knownEta * xy;
-                const double cy = sy[j] * inverse - y * mean - knownXi * xy - knownEta * yy;
-                slopeXi[j] = (cx * (yy + ridge) - cy * xy) / determinant + knownXi;
-                slopeEta[j] = (cy * (xx + ridge) - cx * xy) / determinant + knownEta;
+                const double cx = sx[j] * inverse - x * mean - knownXi * spread.xx - knownEta * spread.xy;
+                const double cy = sy[j] * inverse - y * mean - knownXi * spread.xy - knownEta * spread.yy;
+                slopeXi[j] = spread.slopeXi(cx, cy) + knownXi;
+                slopeEta[j] = spread.slopeEta(cx, cy) + knownEta;
                 stress[j] -= knownXi * x + knownEta * y;
             }
             if (meanDilatation) { // the mean stress works on the mean dilatation alone
@@ -718,15 +736,6 @@ void ExplicitStep<Shape, phases>::solveNodes(State& state, double dt)
 {
     const double damping = scene_.controls.localDamping;
     const bool tractions = scene_.conditions.hasTractions();
-    if constexpr (twoPhase) {
-        std::ranges::fill(givenPressure_, std::numeric_limits<double>::quiet_NaN());
-        scene_.liquidBoundary.setPressures(state.mesh, state.time, unitWeight_, givenPressure_);
-        for (const int c : voidCells_) {
-            for (int k = 0; k < corners; ++k) {
-                givenPressure_[cellNodes_[c * corners + k]] = surfacePressure_[freeSurface_[c]];
-            }
-        }
-    }
     for (const int i : activeNodes_) {
         Corner sum{};
         for (int k = nodeCorners_.start[i]; k < nodeCorners_.start[i + 1]; ++k) {
@@ -832,6 +841,29 @@ void ExplicitStep<Shape, phases>::applyConditions(double time, bool remapped)
     }
 }
 
+/// touch(normal, part, vertical velocity of the wall, area) for the faces of a body that a node has. At the
+/// tip's corner as the body's TipCorner says.
+template <class Shape, int phases>
+template <class Touch>
+void ExplicitStep<Shape, phases>::touchFaces(const RigidBody& body, const SurfaceNode& contact,
+                                             const Touch& touch) const
+{
+    const bool tipCorner = contact.faces == 2 && contact.part[0] == SurfacePart::tip;
+    if (!tipCorner || body.tipCorner == TipCorner::full) {
+        for (int f = 0; f < contact.faces; ++f) {
+            touch(contact.normal[f], contact.part[f], body.velocity, contact.area[f]);
+        }
+    } else if (body.tipCorner == TipCorner::rounded) {
+        touch(contact.roundedNormal, contact.part[0], body.velocity, contact.area[0]);
+    } else {
+        const double w = contact.tipShare;
+        const double besideVz = contact.beside >= 0 && nodes_[contact.beside].mass > 0
+                                    ? nodes_[contact.beside].vz
+                                    : body.velocity;
+        touch(contact.normal[0], contact.part[0], w * body.velocity + (1 - w) * besideVz, contact.area[0]);
+    }
+}
+
 template <class Shape, int phases>
 void ExplicitStep<Shape, phases>::applyContact(State& state, double dt, bool remapped)
 {
@@ -881,21 +913,7 @@ void ExplicitStep<Shape, phases>::applyContact(State& state, double dt, bool rem
                 reaction.verticalImpulse[static_cast<int>(part)] -= node.mass * changeZ;
                 reaction.work += node.mass * changeZ * body.velocity;
             };
-            const bool tipCorner = contact.faces == 2 && contact.part[0] == SurfacePart::tip;
-            if (!tipCorner || body.tipCorner == TipCorner::full) {
-                for (int f = 0; f < contact.faces; ++f) {
-                    touch(contact.normal[f], contact.part[f], body.velocity, contact.area[f]);
-                }
-            } else if (body.tipCorner == TipCorner::rounded) {
-                touch(contact.roundedNormal, contact.part[0], body.velocity, contact.area[0]);
-            } else {
-                const double w = contact.tipShare;
-                const double besideVz = contact.beside >= 0 && nodes_[contact.beside].mass > 0
-                                            ? nodes_[contact.beside].vz
-                                            : body.velocity;
-                touch(contact.normal[0], contact.part[0], w * body.velocity + (1 - w) * besideVz,
-                      contact.area[0]);
-            }
+            touchFaces(body, contact, touch);
         }
     }
 }
@@ -1202,8 +1220,7 @@ void ExplicitStep<Shape, phases>::averageDilatationAtNodes()
     }
 }
 
-/// Detournay & Dzik 2006: cell rates of dilatation to nodes by volume, and back as the mean of a cell's
-/// nodes.
+/// Detournay & Dzik 2006: cell rates of dilatation, averaged over the nodes.
 template <class Shape, int phases>
 template <class Velocity>
 void ExplicitStep<Shape, phases>::averageAtNodes(std::vector<double>& cellRate, const Velocity& velocity)
@@ -1216,24 +1233,35 @@ void ExplicitStep<Shape, phases>::averageAtNodes(std::vector<double>& cellRate, 
         }
         cellRate[c] = rate;
     }
+    averageOverNodes(cellRate, cellRate);
+}
+
+/// From cells to their nodes, weighted with volume, and back as the mean of a cell's nodes. A checkerboard
+/// becomes zero; the sum over the volume stays. The result may be what it is taken of.
+template <class Shape, int phases>
+void ExplicitStep<Shape, phases>::averageOverNodes(const std::vector<double>& ofCells,
+                                                   std::vector<double>& result) const
+{
+    ofNodes_.resize(nodes_.size());
+    result.resize(ofCells.size());
     for (const int i : activeNodes_) {
         double sum = 0;
         double volume = 0;
         for (int k = nodeCorners_.start[i]; k < nodeCorners_.start[i + 1]; ++k) {
             const int c = nodeCorners_.item[k] / corners;
             if (occupied_[c]) {
-                sum += cellRate[c] * dilatation_[c].volume;
+                sum += ofCells[c] * dilatation_[c].volume;
                 volume += dilatation_[c].volume;
             }
         }
-        nodeRate_[i] = sum / volume;
+        ofNodes_[i] = sum / volume;
     }
     for (const int c : activeCells_) {
-        double rate = 0;
+        double sum = 0;
         for (int k = 0; k < corners; ++k) {
-            rate += nodeRate_[cellNodes_[c * corners + k]];
+            sum += ofNodes_[cellNodes_[c * corners + k]];
         }
-        cellRate[c] = rate / corners;
+        result[c] = sum / corners;
     }
 }
 

@@ -2,13 +2,15 @@
 
 #include "timeStepping/ExplicitStepKernels.h"
 
-/// The liquid of two-phase soil (v-w formulation, one material point for both phases) [Jassim, Stolle &
-/// Vermeer 2013; van Esch, Stolle & Jassim 2011]. Per volume of mixture, with p the pore pressure less its
-/// hydrostatic part rho_w g_z z, compression positive:
-///   liquid    n rho_w dw/dt = -n grad p - Q (w - v),                           Q = n^2
-///   viscosity/permeability solid     (1-n) rho_s dv/dt = div sigma' - (1-n) grad p + (1-n)(rho_s - rho_w) g
-///   + Q (w - v) storage   dp/dt = -(Kw/n) ((1-n) div v + n div w)
-/// The porosity stands outside the gradient: of a node for the forces.
+// The liquid of two-phase soil (v-w formulation, one material point for both phases) [Jassim, Stolle &
+// Vermeer 2013; van Esch, Stolle & Jassim 2011]. Per volume of mixture, with p the pore pressure less its
+// hydrostatic part rho_w g_z z, compression positive, and Q = n^2 viscosity/permeability:
+//
+//     liquid    n rho_w dw/dt     = -n grad p - Q (w - v)
+//     solid     (1-n) rho_s dv/dt = div sigma' - (1-n) grad p + (1-n) (rho_s - rho_w) g + Q (w - v)
+//     storage   dp/dt             = -(Kw/n) ((1-n) div v + n div w)
+//
+// The porosity stands outside the gradient: of a node for the forces.
 namespace caisson {
 
 template <class Shape, int phases>
@@ -67,6 +69,13 @@ void ExplicitStep<Shape, phases>::prepareLiquid(const State& state)
     if (scene_.liquidBoundary.hasPressures()) {
         std::ranges::fill(waterLoad_, std::array<double, 2>{});
         scene_.liquidBoundary.addPressures(state.mesh, state.time, unitWeight_, waterLoad_);
+    }
+    std::ranges::fill(givenPressure_, std::numeric_limits<double>::quiet_NaN());
+    scene_.liquidBoundary.setPressures(state.mesh, state.time, unitWeight_, givenPressure_);
+    for (const int c : voidCells_) {
+        for (int k = 0; k < corners; ++k) {
+            givenPressure_[cellNodes_[c * corners + k]] = surfacePressure_[freeSurface_[c]];
+        }
     }
 }
 
@@ -144,17 +153,13 @@ void ExplicitStep<Shape, phases>::mapLiquidToNodes(const State& state, int c)
         if constexpr (corners == 4) {
             if (!meanDilatation) { // slopes as of the stress (mapCellToNodes)
                 const shapes::Moments<corners> m = Shape::moments(cell);
-                constexpr double ridge = 0.02;
                 const double x = wx / volume;
                 const double y = wy / volume;
-                const double xx = wxx / volume - x * x;
-                const double yy = wyy / volume - y * y;
-                const double xy = wxy / volume - x * y;
-                const double determinant = (xx + ridge) * (yy + ridge) - xy * xy;
+                const kernels::Spread spread(wxx / volume - x * x, wyy / volume - y * y,
+                                             wxy / volume - x * y);
                 const double cx = px / volume - x * mean;
                 const double cy = py / volume - y * mean;
-                const double slope[3] = {0, (cx * (yy + ridge) - cy * xy) / determinant,
-                                         (cy * (xx + ridge) - cx * xy) / determinant};
+                const double slope[3] = {0, spread.slopeXi(cx, cy), spread.slopeEta(cx, cy)};
                 for (int j = 1; j < 3; ++j) {
                     for (int k = 0; k < corners; ++k) {
                         sum[k].forceR += m.volume * slope[j] * (m.gr[j][k] + m.h[j][k]);
@@ -457,23 +462,11 @@ void ExplicitStep<Shape, phases>::touchTwoPhase(const RigidBody& body, BodyReact
         reaction.waterImpulse -= water;
         reaction.work += water * body.velocity;
     }
-    const bool tipCorner = contact.faces == 2 && contact.part[0] == SurfacePart::tip;
-    if (!tipCorner || body.tipCorner == TipCorner::full) {
-        for (int f = 0; f < contact.faces; ++f) {
-            touch(contact.normal[f], contact.part[f], body.velocity, contact.area[f]);
-        }
-        if (contact.faces == 2) { // the liquid in a corner moves with both faces
-            liquid.relativeVr = -node.vr;
-            liquid.relativeVz = body.velocity - node.vz;
-        }
-    } else if (body.tipCorner == TipCorner::rounded) {
-        touch(contact.roundedNormal, contact.part[0], body.velocity, contact.area[0]);
-    } else {
-        const double w = contact.tipShare;
-        const double besideVz = contact.beside >= 0 && nodes_[contact.beside].mass > 0
-                                    ? nodes_[contact.beside].vz
-                                    : body.velocity;
-        touch(contact.normal[0], contact.part[0], w * body.velocity + (1 - w) * besideVz, contact.area[0]);
+    touchFaces(body, contact, touch);
+    const bool corner = contact.faces == 2 && contact.part[0] == SurfacePart::tip;
+    if (contact.faces == 2 && (!corner || body.tipCorner == TipCorner::full)) {
+        liquid.relativeVr = -node.vr; // the liquid in a corner moves with both faces
+        liquid.relativeVz = body.velocity - node.vz;
     }
 }
 
@@ -492,35 +485,6 @@ void ExplicitStep<Shape, phases>::meanPressures(const State& state, std::vector<
             sum += points.volume[*i] * (points.porePressure[*i] - unitWeight_ * points.z[*i]);
         }
         cellPressure[c] = sum / volume;
-    }
-}
-
-/// From cells to their nodes, weighted with volume, and back as the mean of a cell's nodes. A checkerboard
-/// becomes zero; the sum over the volume stays.
-template <class Shape, int phases>
-void ExplicitStep<Shape, phases>::averageOverNodes(const std::vector<double>& ofCells,
-                                                   std::vector<double>& result) const
-{
-    ofNodes_.resize(nodes_.size());
-    result.resize(ofCells.size());
-    for (const int i : activeNodes_) {
-        double sum = 0;
-        double volume = 0;
-        for (int k = nodeCorners_.start[i]; k < nodeCorners_.start[i + 1]; ++k) {
-            const int c = nodeCorners_.item[k] / corners;
-            if (occupied_[c]) {
-                sum += ofCells[c] * dilatation_[c].volume;
-                volume += dilatation_[c].volume;
-            }
-        }
-        ofNodes_[i] = sum / volume;
-    }
-    for (const int c : activeCells_) {
-        double sum = 0;
-        for (int k = 0; k < corners; ++k) {
-            sum += ofNodes_[cellNodes_[c * corners + k]];
-        }
-        result[c] = sum / corners;
     }
 }
 
