@@ -32,6 +32,8 @@ constexpr Keyword keywords[] = {
     {"energyGate", "-", "0.05", "(0, inf)", "warn where kinetic energy passes this share of the work done"},
     {"monitorInterval", "s", "0.005", "[0, inf)", "least time between two records in postProcessing"},
     {"sortInterval", "integer", "50", "[1, 100000]", "steps between two sorts of the points in memory"},
+    {"threads", "integer", "0", "[0, 64]",
+     "threads; 0 takes the processors, one for every 5,000 points at most. Results do not depend on it"},
 };
 
 } // namespace
@@ -81,6 +83,7 @@ SolutionControls readSolutionControls(const Dictionary& mpmSolution, bool triang
     controls.inertiaGate = reader.number("inertiaGate");
     controls.energyGate = reader.number("energyGate");
     controls.sortInterval = static_cast<int>(reader.integer("sortInterval"));
+    controls.threads = static_cast<int>(reader.integer("threads"));
     return controls;
 }
 

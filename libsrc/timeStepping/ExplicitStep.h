@@ -3,6 +3,7 @@
 #include "mesh/CellLocator.h"
 #include "timeStepping/CellShapes.h"
 #include "timeStepping/PointCells.h"
+#include "timeStepping/Threads.h"
 #include "timeStepping/TimeStep.h"
 
 namespace caisson {
@@ -16,7 +17,7 @@ namespace caisson {
 /// drive the constitutive laws in batches; the mesh follows its body and the points are found in it again.
 ///
 /// Every cell keeps its own sums per corner; the nodes gather them in a fixed order. So the result does not
-/// depend on who computed which cell.
+/// depend on which thread computed which cell: the same bits for any number of threads.
 template <class Shape, int phases>
 class ExplicitStep final : public TimeStep
 {
@@ -88,7 +89,30 @@ private:
         double pressure; ///< mean excess pore pressure round the node [Pa]
     };
 
+    /// work(cell) for all active cells, or work(node) for all active nodes, on all threads.
+    template <class Work>
+    void forCells(const Work& work) const
+    {
+        runParts(threads_, [&](int part) {
+            for (int i = cellPart_[part]; i < cellPart_[part + 1]; ++i) {
+                work(activeCells_[i]);
+            }
+        });
+    }
+    template <class Work>
+    void forNodes(const Work& work) const
+    {
+        const int count = static_cast<int>(activeNodes_.size());
+        runParts(threads_, [&](int part) {
+            for (int i = firstOfPart(count, part, threads_); i < firstOfPart(count, part + 1, threads_);
+                 ++i) {
+                work(activeNodes_[i]);
+            }
+        });
+    }
+
     void updateCells(const State& state);
+    void divideCells(const State& state);
     void classifyCells(State& state);
     void moveBodies(State& state, double dt);
     void meanPressures(const State& state, std::vector<double>& cellPressure) const;
@@ -130,13 +154,18 @@ private:
     void updateStress(State& state);
     void moveBodiesAndMesh(State& state, double dt);
     void relocate(State& state);
+    [[nodiscard]] int cellOfMoved(State& state, int p, int c) const;
     void scaleInertia(const State& state);
     [[nodiscard]] double laggedDragStep(const State& state, int c, double size) const;
     [[nodiscard]] double fastestWave(const State& state, int c) const;
 
     const Scene& scene_;
-    std::vector<int> cellNodes_; ///< corners in the order that Shape wants
-    CompressedRows nodeCorners_; ///< around each node: cell * corners + corner
+    const int threads_;
+    std::vector<int> cellPart_; ///< first active cell of each thread, and one past the last
+    std::vector<std::vector<PointCells::Mover>> movers_; ///< per thread
+    std::vector<std::vector<double*>> statePointers_;    ///< per thread
+    std::vector<int> cellNodes_;                         ///< corners in the order that Shape wants
+    CompressedRows nodeCorners_;                         ///< around each node: cell * corners + corner
     std::vector<BodySurface> surfaces_;
     std::vector<double> impulseBefore_; ///< per body: its vertical impulse before the step
     std::vector<unsigned char>
@@ -189,7 +218,6 @@ private:
     mutable std::vector<double> ofNodes_; ///< of averageOverNodes
     std::array<std::vector<double>, 4> strain_; ///< increments of the step, per point
     std::vector<double> spin_;
-    std::vector<double*> statePointers_;
     CellLocator locator_;
 };
 

@@ -79,7 +79,8 @@ inline double fastWave(const Material& material)
 
 template <class Shape, int phases>
 ExplicitStep<Shape, phases>::ExplicitStep(const Scene& scene, State& state)
-    : scene_(scene), locator_(state.mesh)
+    : scene_(scene), threads_(threadsFor(scene.controls.threads, state.points.size())),
+      cellPart_(threads_ + 1), movers_(threads_), statePointers_(threads_), locator_(state.mesh)
 {
     const BackgroundMesh& mesh = state.mesh;
     const int cells = mesh.cells();
@@ -189,7 +190,9 @@ ExplicitStep<Shape, phases>::ExplicitStep(const Scene& scene, State& state)
         component.resize(state.points.size());
     }
     spin_.resize(state.points.size());
-    statePointers_.resize(state.points.state.size());
+    for (auto& pointers : statePointers_) {
+        pointers.resize(state.points.state.size());
+    }
     updateCells(state);
     rebuild(state);
 }
@@ -205,15 +208,36 @@ void ExplicitStep<Shape, phases>::rebuild(State& state)
 template <class Shape, int phases>
 void ExplicitStep<Shape, phases>::updateCells(const State& state)
 {
-    double r[corners];
-    double z[corners];
-    for (int c = 0; c < static_cast<int>(cells_.size()); ++c) {
-        for (int k = 0; k < corners; ++k) {
-            r[k] = state.mesh.r[cellNodes_[c * corners + k]];
-            z[k] = state.mesh.z[cellNodes_[c * corners + k]];
+    const int cells = state.mesh.cells();
+    runParts(threads_, [&](int part) {
+        double r[corners];
+        double z[corners];
+        for (int c = firstOfPart(cells, part, threads_); c < firstOfPart(cells, part + 1, threads_); ++c) {
+            for (int k = 0; k < corners; ++k) {
+                r[k] = state.mesh.r[cellNodes_[c * corners + k]];
+                z[k] = state.mesh.z[cellNodes_[c * corners + k]];
+            }
+            cells_[c] = Shape::make(r, z);
+            dilatation_[c] = Shape::meanDilatation(cells_[c]);
         }
-        cells_[c] = Shape::make(r, z);
-        dilatation_[c] = Shape::meanDilatation(cells_[c]);
+    });
+}
+
+/// Active cells of all parts, with about as many points in each.
+template <class Shape, int phases>
+void ExplicitStep<Shape, phases>::divideCells(const State& state)
+{
+    const long long total = static_cast<long long>(state.points.size() + activeCells_.size());
+    long long sum = 0;
+    int part = 1;
+    for (std::size_t i = 0; i < activeCells_.size(); ++i) {
+        for (; part < threads_ && sum * threads_ >= total * part; ++part) {
+            cellPart_[part] = static_cast<int>(i);
+        }
+        sum += pointCells_.count(activeCells_[i]) + 1;
+    }
+    for (; part <= threads_; ++part) {
+        cellPart_[part] = static_cast<int>(activeCells_.size());
     }
 }
 
@@ -221,6 +245,7 @@ template <class Shape, int phases>
 void ExplicitStep<Shape, phases>::classifyCells(State& state)
 {
     const int cells = state.mesh.cells();
+    const bool sorted = occupancyChanged_;
     if (occupancyChanged_) {
         occupancyChanged_ = false;
         occupied_.assign(cells, 0);
@@ -280,8 +305,11 @@ void ExplicitStep<Shape, phases>::classifyCells(State& state)
             }
         }
     }
+    if (sorted) {
+        divideCells(state);
+    }
     const bool mixed = scene_.controls.integration == SolutionControls::Integration::mixed;
-    for (const int c : activeCells_) {
+    forCells([&](int c) {
         bool filled = mixed && !bySurface_[c];
         if (filled) {
             double volume = 0;
@@ -293,7 +321,7 @@ void ExplicitStep<Shape, phases>::classifyCells(State& state)
                          dilatation_[c].volume;
         }
         state.filled[c] = filled;
-    }
+    });
 }
 
 template <class Shape, int phases>
@@ -315,13 +343,13 @@ void ExplicitStep<Shape, phases>::scaleInertia(const State& state)
     if (scene_.controls.commonTimeStep <= 0) {
         return;
     }
-    for (const int c : activeCells_) {
+    forCells([&](int c) {
         const double speed = fastestWave(state, c);
         const double own = Shape::size(cells_[c]) / speed * std::sqrt(scene_.controls.massScaling);
         const double wanted = scene_.controls.commonTimeStep;
         inertiaScale_[c] =
             scene_.controls.massScaling * (own < wanted ? (wanted / own) * (wanted / own) : 1.0);
-    }
+    });
 }
 
 /// Lagged drag and waves together [Mieremet, Stolle, Ceccato & Vuik 2016], with scaled inertia.
@@ -403,6 +431,7 @@ std::string ExplicitStep<Shape, phases>::description() const
     words += controls.locking == SolutionControls::Locking::none             ? ""
              : controls.locking == SolutionControls::Locking::meanDilatation ? ", mean dilatation"
                                                                              : ", nodal dilatation";
+    words += threads_ == 1 ? ", 1 thread" : ", " + std::to_string(threads_) + " threads";
     return words;
 }
 
@@ -490,9 +519,7 @@ void ExplicitStep<Shape, phases>::staggerStrain(State& state, double dt)
     if (scene_.controls.locking == SolutionControls::Locking::nodalAverage) {
         averageDilatationAtNodes();
     }
-    for (const int c : activeCells_) {
-        mapCellToPoints<false, true>(state, 0.5 * dt, c);
-    }
+    forCells([&](int c) { mapCellToPoints<false, true>(state, 0.5 * dt, c); });
     updateStress(state);
 }
 
@@ -705,26 +732,25 @@ void ExplicitStep<Shape, phases>::addPointLoads(const State& state, int c)
 template <class Shape, int phases>
 void ExplicitStep<Shape, phases>::mapToNodes(State& state)
 {
-    for (const int c : activeCells_) {
-        mapCellToNodes(state, c);
-    }
     if constexpr (twoPhase) {
         prepareLiquid(state);
-        for (const int c : activeCells_) {
-            mapLiquidToNodes(state, c);
-        }
         for (const int c : voidCells_) {
             mapVoidToNodes(c);
         }
     }
-    if (state.points.loaded()) {
-        for (std::size_t l = 0; l < pointTraction_.size(); ++l) {
-            pointTraction_[l] = scene_.pointLoads[l].traction(state.time, loadedArea_[l]);
+    const bool loaded = state.points.loaded();
+    for (std::size_t l = 0; loaded && l < pointTraction_.size(); ++l) {
+        pointTraction_[l] = scene_.pointLoads[l].traction(state.time, loadedArea_[l]);
+    }
+    forCells([&](int c) {
+        mapCellToNodes(state, c);
+        if constexpr (twoPhase) {
+            mapLiquidToNodes(state, c);
         }
-        for (const int c : activeCells_) {
+        if (loaded) {
             addPointLoads(state, c);
         }
-    }
+    });
     if (scene_.conditions.hasTractions()) {
         std::ranges::fill(traction_, std::array<double, 2>{});
         scene_.conditions.addTractions(state.mesh, state.time, traction_);
@@ -736,7 +762,7 @@ void ExplicitStep<Shape, phases>::solveNodes(State& state, double dt)
 {
     const double damping = scene_.controls.localDamping;
     const bool tractions = scene_.conditions.hasTractions();
-    for (const int i : activeNodes_) {
+    forNodes([&](int i) {
         Corner sum{};
         for (int k = nodeCorners_.start[i]; k < nodeCorners_.start[i + 1]; ++k) {
             const Corner& corner = cornerSums_[nodeCorners_.item[k]];
@@ -755,7 +781,7 @@ void ExplicitStep<Shape, phases>::solveNodes(State& state, double dt)
             if constexpr (twoPhase) {
                 liquidNodes_[i] = LiquidNode{};
             }
-            continue;
+            return;
         }
         if (tractions) {
             sum.forceR += traction_[i][0];
@@ -763,7 +789,7 @@ void ExplicitStep<Shape, phases>::solveNodes(State& state, double dt)
         }
         if constexpr (twoPhase) {
             solveTwoPhaseNode(i, sum, dt);
-            continue;
+            return;
         }
         const double inverse = 1 / sum.mass;
         const double oldR = sum.momentumR * inverse;
@@ -779,7 +805,7 @@ void ExplicitStep<Shape, phases>::solveNodes(State& state, double dt)
         node.vz = oldZ + node.dvz;
         node.placeVr = oldR + 0.5 * node.dvr;
         node.placeVz = oldZ + 0.5 * node.dvz;
-    }
+    });
     if constexpr (twoPhase) { // a held direction wins over a body's, in velocity and drag
         applyContact(state, dt, false);
         applyConditions(state.time + dt, false);
@@ -1225,14 +1251,14 @@ template <class Shape, int phases>
 template <class Velocity>
 void ExplicitStep<Shape, phases>::averageAtNodes(std::vector<double>& cellRate, const Velocity& velocity)
 {
-    for (const int c : activeCells_) {
+    forCells([&](int c) {
         double rate = 0;
         for (int k = 0; k < corners; ++k) {
             const auto [r, z] = velocity(cellNodes_[c * corners + k]);
             rate += dilatation_[c].br[k] * r + dilatation_[c].bz[k] * z;
         }
         cellRate[c] = rate;
-    }
+    });
     averageOverNodes(cellRate, cellRate);
 }
 
@@ -1244,7 +1270,7 @@ void ExplicitStep<Shape, phases>::averageOverNodes(const std::vector<double>& of
 {
     ofNodes_.resize(nodes_.size());
     result.resize(ofCells.size());
-    for (const int i : activeNodes_) {
+    forNodes([&](int i) {
         double sum = 0;
         double volume = 0;
         for (int k = nodeCorners_.start[i]; k < nodeCorners_.start[i + 1]; ++k) {
@@ -1255,14 +1281,14 @@ void ExplicitStep<Shape, phases>::averageOverNodes(const std::vector<double>& of
             }
         }
         ofNodes_[i] = sum / volume;
-    }
-    for (const int c : activeCells_) {
+    });
+    forCells([&](int c) {
         double sum = 0;
         for (int k = 0; k < corners; ++k) {
             sum += ofNodes_[cellNodes_[c * corners + k]];
         }
         result[c] = sum / corners;
-    }
+    });
 }
 
 template <class Shape, int phases>
@@ -1275,28 +1301,24 @@ void ExplicitStep<Shape, phases>::mapToPoints(State& state, double dt)
     const auto later = [&](int c) { return remapAll || nodalAverage || (remapSome && byLoose_[c]); };
     const auto remaps = [&](int c) { return remapAll || (remapSome && byLoose_[c]); };
 
-    if (remapSome) {
-        for (const int c : activeCells_) {
+    forCells([&](int c) {
+        if (remapSome) {
             byLoose_[c] = 0;
             for (int k = 0; k < corners; ++k) {
                 byLoose_[c] |= looseNode_[cellNodes_[c * corners + k]];
             }
         }
-    }
-    for (const int c : activeCells_) {
         if (later(c)) {
             mapCellToPoints<true, false>(state, dt, c);
         }
-    }
-    if (remapAll || remapSome) {
-        for (const int c : activeCells_) {
-            if (remaps(c)) {
-                addRemappedMomentum(state, c);
-            }
+        if (remaps(c)) {
+            addRemappedMomentum(state, c);
         }
-        for (const int i : activeNodes_) {
+    });
+    if (remapAll || remapSome) {
+        forNodes([&](int i) {
             if (!(remapAll || looseNode_[i]) || nodes_[i].mass <= 0) {
-                continue;
+                return;
             }
             double r = 0;
             double z = 0;
@@ -1316,7 +1338,7 @@ void ExplicitStep<Shape, phases>::mapToPoints(State& state, double dt)
                 liquid.relativeVr = r / liquid.mass;
                 liquid.relativeVz = z / liquid.mass;
             }
-        }
+        });
         if constexpr (twoPhase) {
             applyContact(state, dt, true);
             applyConditions(state.time + dt, true);
@@ -1328,33 +1350,45 @@ void ExplicitStep<Shape, phases>::mapToPoints(State& state, double dt)
     if (nodalAverage) {
         averageDilatationAtNodes();
     }
-    for (const int c : activeCells_) {
+    forCells([&](int c) {
         if (later(c)) {
             mapCellToPoints<false, true>(state, dt, c);
         } else {
             mapCellToPoints<true, true>(state, dt, c);
         }
-    }
+    });
 }
 
 template <class Shape, int phases>
 void ExplicitStep<Shape, phases>::updateStress(State& state)
 {
+    // Laws work on vectors of points: parts that start at a multiple of any vector's length give the bits of
+    // the whole.
+    constexpr int block = 256;
     MaterialPoints& points = state.points;
-    for (const PointCells::Run& run : pointCells_.runs()) {
-        StressBatch batch;
-        batch.size = run.end - run.begin;
-        for (int j = 0; j < 4; ++j) {
-            batch.strain[j] = strain_[j].data() + run.begin;
-            batch.stress[j] = points.stress[j].data() + run.begin;
+    runParts(threads_, [&](int part) {
+        std::vector<double*>& pointers = statePointers_[part];
+        for (const PointCells::Run& run : pointCells_.runs()) {
+            const int blocks = (run.end - run.begin + block - 1) / block;
+            const int begin = run.begin + block * firstOfPart(blocks, part, threads_);
+            const int end = std::min(run.end, run.begin + block * firstOfPart(blocks, part + 1, threads_));
+            StressBatch batch;
+            batch.size = end - begin;
+            if (batch.size <= 0) {
+                continue;
+            }
+            for (int j = 0; j < 4; ++j) {
+                batch.strain[j] = strain_[j].data() + begin;
+                batch.stress[j] = points.stress[j].data() + begin;
+            }
+            batch.spin = spin_.data() + begin;
+            for (std::size_t k = 0; k < points.state.size(); ++k) {
+                pointers[k] = points.state[k].data() + begin;
+            }
+            batch.state = &pointers;
+            scene_.materials[run.material].law->update(batch);
         }
-        batch.spin = spin_.data() + run.begin;
-        for (std::size_t k = 0; k < points.state.size(); ++k) {
-            statePointers_[k] = points.state[k].data() + run.begin;
-        }
-        batch.state = &statePointers_;
-        scene_.materials[run.material].law->update(batch);
-    }
+    });
 }
 
 template <class Shape, int phases>
@@ -1374,57 +1408,71 @@ template <class Shape, int phases>
 void ExplicitStep<Shape, phases>::relocate(State& state)
 {
     MaterialPoints& points = state.points;
-    bool moved = false;
-    for (const int c : activeCells_) {
-        const typename Shape::Cell& cell = cells_[c];
-        for (const int* i = pointCells_.begin(c); i != pointCells_.end(c); ++i) {
-            const int p = *i;
-            if (Shape::contains(cell, points.r[p], points.z[p])) {
-                continue;
-            }
-            int found = locator_.walk(points.r[p], points.z[p], c);
-            if (found >= 0 && inside_[found]) {
-                for (const RigidBody& body : state.bodies) {
-                    if (body.contains(points.r[p], points.z[p])) {
-                        const double clearance = 1e-6 * Shape::size(cell);
-                        const auto [r, z] = pushOut(body, points.r[p], points.z[p], clearance);
-                        points.r[p] = r;
-                        points.z[p] = z;
-                        found = locator_.walk(r, z, c);
-                    }
+    runParts(threads_, [&](int part) {
+        movers_[part].clear();
+        for (int j = cellPart_[part]; j < cellPart_[part + 1]; ++j) {
+            const int c = activeCells_[j];
+            for (const int* i = pointCells_.begin(c); i != pointCells_.end(c); ++i) {
+                if (Shape::contains(cells_[c], points.r[*i], points.z[*i])) {
+                    continue;
                 }
-                if (found >= 0 && inside_[found]) {
-                    continue; // rounding at a face: stays with its cell
+                const int found = cellOfMoved(state, *i, c);
+                if (found != c) {
+                    points.cell[*i] = found;
+                    movers_[part].push_back({*i, c});
                 }
-            }
-            if (found < 0) {
-                throw InputError(
-                    "the run",
-                    {InputProblem{
-                        {},
-                        text("material point %d left the mesh at r = %.6g m, z = %.6g m (t = %.6g s)",
-                             points.id[p], points.r[p], points.z[p], state.time),
-                        "extend the mesh there, or hold the soil with a boundary condition"}});
-            }
-            if (found != c) {
-                points.cell[p] = found;
-                moved = true;
             }
         }
+    });
+    const bool sorts =
+        scene_.controls.sortInterval > 0 && (state.step + 1) % scene_.controls.sortInterval == 0;
+    for (const auto& movers : movers_) {
+        if (!sorts) {
+            pointCells_.move(points, movers);
+        }
     }
-    const int cells = state.mesh.cells();
-    if (scene_.controls.sortInterval > 0 && (state.step + 1) % scene_.controls.sortInterval == 0) {
-        pointCells_.sort(points, cells);
-        moved = true;
-    } else if (moved) {
-        pointCells_.index(points, cells);
+    if (sorts) {
+        pointCells_.sort(points, state.mesh.cells());
+        divideCells(state);
     }
-    if (moved) {
-        for (int c = 0; c < cells && !occupancyChanged_; ++c) {
-            occupancyChanged_ = (pointCells_.count(c) > 0) != (occupied_[c] != 0);
+    for (const auto& movers : movers_) {
+        for (const auto& [point, from] : movers) {
+            occupancyChanged_ =
+                occupancyChanged_ || pointCells_.count(from) == 0 || !occupied_[points.cell[point]];
         }
     }
     classifyCells(state);
+}
+
+/// Cell that now holds a point of cell c; pushes it out of a body's wall.
+template <class Shape, int phases>
+int ExplicitStep<Shape, phases>::cellOfMoved(State& state, int p, int c) const
+{
+    MaterialPoints& points = state.points;
+    int found = locator_.walk(points.r[p], points.z[p], c);
+    if (found >= 0 && inside_[found]) {
+        for (const RigidBody& body : state.bodies) {
+            if (body.contains(points.r[p], points.z[p])) {
+                const double clearance = 1e-6 * Shape::size(cells_[c]);
+                const auto [r, z] = pushOut(body, points.r[p], points.z[p], clearance);
+                points.r[p] = r;
+                points.z[p] = z;
+                found = locator_.walk(r, z, c);
+            }
+        }
+        if (found >= 0 && inside_[found]) {
+            return c; // rounding at a face: stays with its cell
+        }
+    }
+    if (found < 0) {
+        throw InputError("the run",
+                         {InputProblem{{},
+                                       text("material point %d left the mesh at r = %.6g m, z = %.6g m (t = "
+                                            "%.6g s)",
+                                            points.id[p], points.r[p], points.z[p], state.time),
+                                       "extend the mesh there, or hold the soil with a boundary condition"}});
+    }
+    return found;
 }
 
 template <class Shape, int phases>

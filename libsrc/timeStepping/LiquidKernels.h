@@ -477,7 +477,7 @@ void ExplicitStep<Shape, phases>::meanPressures(const State& state, std::vector<
 {
     const MaterialPoints& points = state.points;
     cellPressure.resize(cells_.size());
-    for (const int c : activeCells_) {
+    forCells([&](int c) {
         double volume = 0;
         double sum = 0;
         for (const int* i = pointCells_.begin(c); i != pointCells_.end(c); ++i) {
@@ -485,7 +485,7 @@ void ExplicitStep<Shape, phases>::meanPressures(const State& state, std::vector<
             sum += points.volume[*i] * (points.porePressure[*i] - unitWeight_ * points.z[*i]);
         }
         cellPressure[c] = sum / volume;
-    }
+    });
 }
 
 /// Linear cells of one pressure do not feel a checkerboard of it: no flow levels it. With A the average over
@@ -496,23 +496,21 @@ void ExplicitStep<Shape, phases>::filterPressures(State& state)
     meanPressures(state, cellPressure_);
     for (int pass = 0; pass < 2; ++pass) {
         averageOverNodes(cellPressure_, cellAverage_);
-        for (const int c : activeCells_) {
-            cellPressure_[c] -= cellAverage_[c];
-        }
+        forCells([&](int c) { cellPressure_[c] -= cellAverage_[c]; });
     }
-    for (const int c : activeCells_) {
+    forCells([&](int c) {
         bool open = bySurface_[c] != 0; // a mirror image across an impermeable side is right, there it is not
         for (int k = 0; k < corners; ++k) {
             open = open || !std::isnan(givenPressure_[cellNodes_[c * corners + k]]);
         }
         if (open) {
-            continue;
+            return;
         }
         const double change = scene_.controls.checkerboardFilter * cellPressure_[c];
         for (const int* i = pointCells_.begin(c); i != pointCells_.end(c); ++i) {
             state.points.porePressure[*i] -= change;
         }
-    }
+    });
 }
 
 template <class Shape, int phases>

@@ -1,18 +1,19 @@
 #include "timeStepping/PointCells.h"
 
 #include <algorithm>
-#include <numeric>
 
 namespace caisson {
 
 void PointCells::sort(MaterialPoints& points, int cells)
 {
-    std::vector<int> order(points.size());
-    std::iota(order.begin(), order.end(), 0);
-    std::ranges::sort(order, [&points](int a, int b) {
-        return points.cell[a] != points.cell[b] ? points.cell[a] < points.cell[b]
-                                                : points.id[a] < points.id[b];
-    });
+    index(points, cells);
+    std::vector<int> order;
+    order.reserve(points.size());
+    for (int c = 0; c < cells; ++c) {
+        order.insert(order.end(), begin(c), end(c));
+        std::sort(order.end() - count(c), order.end(),
+                  [&points](int a, int b) { return points.id[a] < points.id[b]; });
+    }
     points.reorder(order);
     findRuns(points);
     index(points, cells);
@@ -20,18 +21,43 @@ void PointCells::sort(MaterialPoints& points, int cells)
 
 void PointCells::index(const MaterialPoints& points, int cells)
 {
+    constexpr int spare = 4; // points that may come before all is indexed again
     const int n = static_cast<int>(points.size());
-    start_.assign(cells + 1, 0);
+    slots_.assign(cells, {});
     for (int p = 0; p < n; ++p) {
-        ++start_[points.cell[p] + 1];
+        ++slots_[points.cell[p]].room;
     }
-    for (int c = 0; c < cells; ++c) {
-        start_[c + 1] += start_[c];
+    int start = 0;
+    for (Slot& slot : slots_) {
+        slot.room += spare;
+        slot.start = start;
+        start += slot.room;
     }
-    cursor_.assign(start_.begin(), start_.end() - 1);
-    index_.resize(n);
+    index_.resize(start);
     for (int p = 0; p < n; ++p) {
-        index_[cursor_[points.cell[p]]++] = p;
+        Slot& slot = slots_[points.cell[p]];
+        index_[slot.start + slot.count++] = p;
+    }
+}
+
+void PointCells::move(const MaterialPoints& points, std::span<const Mover> movers)
+{
+    for (const Mover& mover : movers) {
+        Slot& to = slots_[points.cell[mover.point]];
+        if (to.count == to.room) {
+            index(points, cells());
+            return;
+        }
+        Slot& from = slots_[mover.from];
+        int* const old = std::lower_bound(index_.data() + from.start, index_.data() + from.start + from.count,
+                                          mover.point);
+        std::copy(old + 1, index_.data() + from.start + from.count, old);
+        --from.count;
+        int* const last = index_.data() + to.start + to.count;
+        int* const place = std::lower_bound(index_.data() + to.start, last, mover.point);
+        std::copy_backward(place, last, last + 1);
+        *place = mover.point;
+        ++to.count;
     }
 }
 

@@ -48,6 +48,7 @@ struct SolutionControls
     /// O(h^4).
     double checkerboardFilter = 0.2;
     int sortInterval = 50; ///< steps between physical sorts of the points
+    int threads = 0;       ///< 0: the processors, where there are points enough
 };
 
 /// All that does not change while a case runs. Plain, validated data.

@@ -118,14 +118,15 @@ void timeSteps(Log& log, const ControlDict& control, const RunTime& runTime, con
     const double steps = std::ceil((control.endTime - runTime.time()) / deltaT);
     constexpr int trial = 20;
     step.advance(state, deltaT);
-    const double start = Log::processorSeconds();
+    const double start = log.clockSeconds();
     for (int i = 0; i < trial; ++i) {
         step.advance(state, deltaT);
     }
-    const double perStep = (Log::processorSeconds() - start) / trial;
+    const double perStep = (log.clockSeconds() - start) / trial;
     const double points = static_cast<double>(state.points.size());
     log.line(text("Steps: about %.0f of %.4g s", steps, deltaT));
-    log.line(text("Speed: %.4g s per step, %.1f ns per point and step", perStep, 1e9 * perStep / points));
+    log.line(text("Speed: %.4g s of the clock per step, %.1f ns per point and step", perStep,
+                  1e9 * perStep / points));
     log.line(text("Run time: about %.0f s", steps * perStep));
     double writes = 0;
     if (control.writeControl == WriteControl::timeStep) {

@@ -340,7 +340,8 @@ void RunOutput::writeVtk(const State& state) const
 void RunOutput::summary(const State& state) const
 {
     if (pointSteps_ > 0) {
-        log_.line(text("Speed: %.1f ns per point and step (%zu points, output apart)",
+        log_.line(text("Speed: %.1f ns per point and step (processor time of all threads, %zu points, output "
+                       "apart)",
                        1e9 * stepSeconds_ / pointSteps_, state.points.size()));
     }
 }

@@ -1,0 +1,127 @@
+#include "timeStepping/Threads.h"
+
+#include "Verification.h"
+
+#include <stdexcept>
+
+namespace caisson::testing {
+namespace {
+
+struct Variant
+{
+    const char* name;
+    bool triangles;
+    int phases;
+};
+
+/// A skirt on its way into sand, with the mesh that follows it: every loop of a step has work to do.
+State skirtAfterSomeSteps(const Variant& variant, int threads)
+{
+    Simulation simulation;
+    simulation.scene.controls.threads = threads;
+    simulation.scene.controls.phases = variant.phases;
+    simulation.scene.controls.sortInterval = 7;
+    if (variant.triangles) {
+        simulation.scene.controls.locking = SolutionControls::Locking::nodalAverage;
+    }
+    simulation.state.mesh = structuredMesh(evenLines(0, 3, 30), evenLines(-3, 0.4, 34),
+                                           Geometry::axisymmetric, variant.triangles);
+    const int sand = simulation.addMaterial(
+        "sand", "law mohrCoulomb; porosity 0.35; solidDensity 2650; liquidDensity 1000; weight submerged; "
+                "youngsModulus 60e6; poissonsRatio 0.25; frictionAngle 38; dilatancyAngle 0; cohesion 0; "
+                "intrinsicPermeability 1e-10; liquidBulkModulus 2e7; liquidViscosity 1e-3;");
+    simulation.scene.gravity = {0, -9.81};
+    simulation.setConditions("right { type slip; } bottom { type slip; } top { type zeroGradient; }");
+    if (variant.phases == 2) {
+        simulation.setPressures("right { type hydrostatic; level 0; } bottom { type impermeable; } "
+                                "top { type impermeable; }");
+    }
+    RigidBody skirt;
+    skirt.name = "skirt";
+    skirt.profile = caissonProfile(1.2, 0.2, 5, 0, 0);
+    skirt.tipLevel = skirt.initialTipLevel = -0.5;
+    skirt.friction = 0.15;
+    skirt.adhesion = 100;
+    skirt.ramp = 0.05;
+    skirt.penetrationRate = std::shared_ptr<const Function1>(constantFunction1(0.5));
+    simulation.state.bodies.push_back(skirt);
+    simulation.scene.motion = MeshMotion({-2.5, -0.8, -0.3, 0}, "skirt");
+    simulation.scene.movingBody = 0;
+    const auto isSoil = [&](double r, double z) { return z < 0 && !skirt.contains(r, z); };
+    if (variant.triangles) {
+        simulation.fill(sand, 3, 1, isSoil);
+    } else {
+        simulation.fill(sand, 2, 4, isSoil);
+    }
+    if (variant.phases == 2) {
+        simulation.state.points.addLiquid();
+        for (std::size_t p = 0; p < simulation.state.points.size(); ++p) {
+            simulation.state.points.porePressure[p] = -9810 * simulation.state.points.z[p];
+        }
+    }
+    const double weight = 0.65 * 1650 * 9.81;
+    simulation.setStress([&](double, double z) {
+        return std::array<double, 4>{0.384 * weight * z, weight * z, 0.384 * weight * z, 0};
+    });
+    simulation.start();
+    simulation.run(0.1, 0.7);
+    return simulation.state;
+}
+
+class EveryStep : public ::testing::TestWithParam<Variant>
+{
+};
+INSTANTIATE_TEST_SUITE_P(, EveryStep,
+                         ::testing::Values(Variant{"onePhaseQuadrilaterals", false, 1},
+                                           Variant{"onePhaseTriangles", true, 1},
+                                           Variant{"twoPhaseQuadrilaterals", false, 2},
+                                           Variant{"twoPhaseTriangles", true, 2}),
+                         [](const auto& variant) { return variant.param.name; });
+
+TEST_P(EveryStep, hasTheSameBitsForAnyNumberOfThreads)
+{
+    const State one = skirtAfterSomeSteps(GetParam(), 1);
+    ASSERT_GT(one.step, 100);
+    ASSERT_NE(one.reactions[0].totalVerticalImpulse(), 0);
+    for (const int threads : {2, 5}) {
+        const State several = skirtAfterSomeSteps(GetParam(), threads);
+        EXPECT_EQ(one.points.id, several.points.id);
+        EXPECT_EQ(one.points.cell, several.points.cell);
+        EXPECT_EQ(one.points.r, several.points.r);
+        EXPECT_EQ(one.points.vz, several.points.vz);
+        EXPECT_EQ(one.points.volume, several.points.volume);
+        EXPECT_EQ(one.points.stress, several.points.stress);
+        EXPECT_EQ(one.points.porePressure, several.points.porePressure);
+        EXPECT_EQ(one.filled, several.filled);
+        EXPECT_EQ(one.reactions[0].verticalImpulse, several.reactions[0].verticalImpulse);
+    }
+}
+
+TEST(Parts, coverEveryItemOnce)
+{
+    for (const int count : {0, 1, 7, 1000}) {
+        EXPECT_EQ(firstOfPart(count, 0, 3), 0);
+        EXPECT_EQ(firstOfPart(count, 3, 3), count);
+    }
+}
+
+TEST(Parts, throwWhatOneOfThemHasThrown)
+{
+    EXPECT_THROW(runParts(3,
+                          [](int part) {
+                              if (part == 2) {
+                                  throw std::runtime_error("part 2");
+                              }
+                          }),
+                 std::runtime_error);
+}
+
+TEST(Threads, areOnePerFiveThousandPointsUnlessAskedFor)
+{
+    EXPECT_EQ(threadsFor(0, 100), 1);
+    EXPECT_LE(threadsFor(0, 10'000), 2);
+    EXPECT_EQ(threadsFor(3, 100), 3);
+}
+
+} // namespace
+} // namespace caisson::testing
