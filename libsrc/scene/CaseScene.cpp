@@ -246,6 +246,7 @@ std::map<std::string, std::vector<double>> keptNumbers(const State& state)
     if (!state.pumped.empty()) {
         kept["pumped"] = state.pumped;
     }
+    kept["massScaling"] = {state.massScaling};
     return kept;
 }
 
@@ -374,6 +375,10 @@ CaseScene readCaseScene(const std::filesystem::path& caseDirectory, const std::f
         if (const auto pumped = kept.find("pumped");
             pumped != kept.end() && pumped->second.size() == scene.freeSurfaces.size()) {
             state.pumped = pumped->second;
+        }
+        if (const auto factor = kept.find("massScaling");
+            factor != kept.end() && factor->second.size() == 1) {
+            state.massScaling = factor->second[0];
         }
         if (scene.movingBody >= 0) {
             const RigidBody& body = state.bodies[scene.movingBody];

@@ -24,12 +24,16 @@ constexpr Keyword keywords[] = {
     {"linearBulkViscosity", "-", "0", "[0, 1]", "factor of the linear viscous pressure; 0.06 is usual"},
     {"quadraticBulkViscosity", "-", "0", "[0, 10]",
      "factor of the quadratic one, in compression; 1.2 is usual"},
-    {"massScaling", "-", "1", "[1, inf)", "factor on the inertia of all soil"},
-    {"commonTimeStep", "s", "0", "[0, inf)",
-     "step that cells with a smaller stable one are scaled up to; 0 is off"},
-    {"inertiaGate", "-", "0.02", "(0, inf)",
-     "warn where scaled inertia rho v^2 passes this share of the vertical effective stress at the tip"},
-    {"energyGate", "-", "0.05", "(0, inf)", "warn where kinetic energy passes this share of the work done"},
+    {"massScaling", "-", "1", "[1, inf)", "factor on the inertia of the soil; its upper limit with gates"},
+    {"massScalingBy", "word", "given", "given gates",
+     "given: massScaling itself; gates: as much as inertiaGate and energyGate allow as the run goes"},
+    {"massScalingOf", "word", "soil", "soil smallCells",
+     "soil: all of it; smallCells: those cells alone whose own step is below that of the smallest, scaled"},
+    {"inertiaGate", "-", "0.1", "(0, inf)",
+     "share of the vertical effective stress at the tip that scaled inertia rho v^2 may have (else a "
+     "warning)"},
+    {"energyGate", "-", "0.05", "(0, inf)",
+     "share of the work done that the scaled kinetic energy may have (else a warning)"},
     {"monitorInterval", "s", "0.005", "[0, inf)", "least time between two records in postProcessing"},
     {"sortInterval", "integer", "50", "[1, 100000]", "steps between two sorts of the points in memory"},
     {"threads", "integer", "0", "[0, 64]",
@@ -79,7 +83,9 @@ SolutionControls readSolutionControls(const Dictionary& mpmSolution, bool triang
     controls.linearBulkViscosity = reader.number("linearBulkViscosity");
     controls.quadraticBulkViscosity = reader.number("quadraticBulkViscosity");
     controls.massScaling = reader.number("massScaling");
-    controls.commonTimeStep = reader.number("commonTimeStep");
+    controls.massScalingBy = reader.word("massScalingBy") == "gates" ? SolutionControls::MassScaling::gates
+                                                                     : SolutionControls::MassScaling::given;
+    controls.scaleSmallCells = reader.word("massScalingOf") == "smallCells";
     controls.inertiaGate = reader.number("inertiaGate");
     controls.energyGate = reader.number("energyGate");
     controls.sortInterval = static_cast<int>(reader.integer("sortInterval"));

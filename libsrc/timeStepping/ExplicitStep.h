@@ -93,7 +93,7 @@ private:
     template <class Work>
     void forCells(const Work& work) const
     {
-        runParts(threads_, [&](int part) {
+        threads_.run([&](int part) {
             for (int i = cellPart_[part]; i < cellPart_[part + 1]; ++i) {
                 work(activeCells_[i]);
             }
@@ -103,9 +103,8 @@ private:
     void forNodes(const Work& work) const
     {
         const int count = static_cast<int>(activeNodes_.size());
-        runParts(threads_, [&](int part) {
-            for (int i = firstOfPart(count, part, threads_); i < firstOfPart(count, part + 1, threads_);
-                 ++i) {
+        threads_.run([&](int part) {
+            for (int i = threads_.first(count, part); i < threads_.first(count, part + 1); ++i) {
                 work(activeNodes_[i]);
             }
         });
@@ -156,12 +155,14 @@ private:
     void relocate(State& state);
     [[nodiscard]] int cellOfMoved(State& state, int p, int c) const;
     void scaleInertia(const State& state);
+    [[nodiscard]] double waveStep(const State& state, int c) const;
     [[nodiscard]] double laggedDragStep(const State& state, int c, double size) const;
     [[nodiscard]] double fastestWave(const State& state, int c) const;
 
     const Scene& scene_;
-    const int threads_;
-    std::vector<int> cellPart_; ///< first active cell of each thread, and one past the last
+    mutable Threads threads_;
+    mutable std::vector<StableStep> shortest_; ///< per thread
+    std::vector<int> cellPart_;                ///< first active cell of each thread, and one past the last
     std::vector<std::vector<PointCells::Mover>> movers_; ///< per thread
     std::vector<std::vector<double*>> statePointers_;    ///< per thread
     std::vector<int> cellNodes_;                         ///< corners in the order that Shape wants

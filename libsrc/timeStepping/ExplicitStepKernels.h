@@ -2,6 +2,7 @@
 
 #include "dictionary/Text.h"
 #include "timeStepping/ExplicitStep.h"
+#include "timeStepping/MassScaling.h"
 
 #include <algorithm>
 #include <cmath>
@@ -80,7 +81,8 @@ inline double fastWave(const Material& material)
 template <class Shape, int phases>
 ExplicitStep<Shape, phases>::ExplicitStep(const Scene& scene, State& state)
     : scene_(scene), threads_(threadsFor(scene.controls.threads, state.points.size())),
-      cellPart_(threads_ + 1), movers_(threads_), statePointers_(threads_), locator_(state.mesh)
+      shortest_(threads_.count()), cellPart_(threads_.count() + 1), movers_(threads_.count()),
+      statePointers_(threads_.count()), locator_(state.mesh)
 {
     const BackgroundMesh& mesh = state.mesh;
     const int cells = mesh.cells();
@@ -140,7 +142,7 @@ ExplicitStep<Shape, phases>::ExplicitStep(const Scene& scene, State& state)
 
     cells_.resize(cells);
     dilatation_.resize(cells);
-    inertiaScale_.assign(cells, scene.controls.massScaling);
+    inertiaScale_.resize(cells);
     fullness_.assign(cells, 1);
     cornerSums_.resize(cells * corners);
     nodes_.resize(mesh.nodes());
@@ -182,6 +184,9 @@ ExplicitStep<Shape, phases>::ExplicitStep(const Scene& scene, State& state)
             solidHeld_.push_back(held);
         }
     }
+    if (scene.controls.massScalingBy == SolutionControls::MassScaling::given) {
+        state.massScaling = scene.controls.massScaling;
+    }
     state.filled.resize(cells, 0);
     state.cellDivergence.resize(cells, 0);
     state.reactions.resize(state.bodies.size());
@@ -203,16 +208,17 @@ void ExplicitStep<Shape, phases>::rebuild(State& state)
     pointCells_.sort(state.points, state.mesh.cells());
     occupancyChanged_ = true;
     classifyCells(state);
+    scaleInertia(state);
 }
 
 template <class Shape, int phases>
 void ExplicitStep<Shape, phases>::updateCells(const State& state)
 {
     const int cells = state.mesh.cells();
-    runParts(threads_, [&](int part) {
+    threads_.run([&](int part) {
         double r[corners];
         double z[corners];
-        for (int c = firstOfPart(cells, part, threads_); c < firstOfPart(cells, part + 1, threads_); ++c) {
+        for (int c = threads_.first(cells, part); c < threads_.first(cells, part + 1); ++c) {
             for (int k = 0; k < corners; ++k) {
                 r[k] = state.mesh.r[cellNodes_[c * corners + k]];
                 z[k] = state.mesh.z[cellNodes_[c * corners + k]];
@@ -228,15 +234,16 @@ template <class Shape, int phases>
 void ExplicitStep<Shape, phases>::divideCells(const State& state)
 {
     const long long total = static_cast<long long>(state.points.size() + activeCells_.size());
+    const int threads = threads_.count();
     long long sum = 0;
     int part = 1;
     for (std::size_t i = 0; i < activeCells_.size(); ++i) {
-        for (; part < threads_ && sum * threads_ >= total * part; ++part) {
+        for (; part < threads && sum * threads >= total * part; ++part) {
             cellPart_[part] = static_cast<int>(i);
         }
         sum += pointCells_.count(activeCells_[i]) + 1;
     }
-    for (; part <= threads_; ++part) {
+    for (; part <= threads; ++part) {
         cellPart_[part] = static_cast<int>(activeCells_.size());
     }
 }
@@ -337,18 +344,28 @@ double ExplicitStep<Shape, phases>::fastestWave(const State& state, int c) const
     return speed;
 }
 
+/// Step that waves allow a cell without mass scaling [s].
+template <class Shape, int phases>
+double ExplicitStep<Shape, phases>::waveStep(const State& state, int c) const
+{
+    return Shape::size(cells_[c]) / fastestWave(state, c);
+}
+
 template <class Shape, int phases>
 void ExplicitStep<Shape, phases>::scaleInertia(const State& state)
 {
-    if (scene_.controls.commonTimeStep <= 0) {
+    if (!scene_.controls.scaleSmallCells) {
+        std::ranges::fill(inertiaScale_, state.massScaling);
         return;
     }
+    double smallest = std::numeric_limits<double>::max();
+    for (const int c : activeCells_) {
+        smallest = std::min(smallest, waveStep(state, c));
+    }
+    const double common = smallest * std::sqrt(state.massScaling);
     forCells([&](int c) {
-        const double speed = fastestWave(state, c);
-        const double own = Shape::size(cells_[c]) / speed * std::sqrt(scene_.controls.massScaling);
-        const double wanted = scene_.controls.commonTimeStep;
-        inertiaScale_[c] =
-            scene_.controls.massScaling * (own < wanted ? (wanted / own) * (wanted / own) : 1.0);
+        const double ratio = common / waveStep(state, c);
+        inertiaScale_[c] = std::max(1.0, ratio * ratio);
     });
 }
 
@@ -377,24 +394,29 @@ double ExplicitStep<Shape, phases>::laggedDragStep(const State& state, int c, do
 template <class Shape, int phases>
 StableStep ExplicitStep<Shape, phases>::stableStep(const State& state) const
 {
-    StableStep result{std::numeric_limits<double>::max(), -1, 0, 0};
     // Linear bulk viscosity b shortens the step by sqrt(1 + b^2) - b.
     const double b = scene_.controls.linearBulkViscosity;
     const double viscous = std::sqrt(1 + b * b) - b;
-    for (const int c : activeCells_) {
-        const double speed = fastestWave(state, c);
-        const double size = Shape::size(cells_[c]);
-        double step = viscous * size / speed * std::sqrt(scene_.controls.massScaling);
-        if (scene_.controls.commonTimeStep > 0) {
-            step = std::max(step, scene_.controls.commonTimeStep);
+    const bool lagged = twoPhase && scene_.controls.drag == SolutionControls::Drag::lagged;
+    threads_.run([&](int part) {
+        StableStep& least = shortest_[part];
+        least.step = std::numeric_limits<double>::max();
+        for (int i = cellPart_[part]; i < cellPart_[part + 1]; ++i) {
+            const int c = activeCells_[i];
+            double step = waveStep(state, c) * std::sqrt(inertiaScale_[c]);
+            if (lagged) {
+                step = std::min(step, laggedDragStep(state, c, Shape::size(cells_[c])));
+            }
+            if (step < least.step) {
+                least = {step, c, 0, 0};
+            }
         }
-        if (twoPhase && scene_.controls.drag == SolutionControls::Drag::lagged) {
-            step = std::min(step, viscous * laggedDragStep(state, c, size));
-        }
-        if (step < result.step) {
-            result = {step, c, speed, size};
-        }
-    }
+    });
+    const auto less = [](const StableStep& one, const StableStep& other) { return one.step < other.step; };
+    StableStep result = *std::ranges::min_element(shortest_, less);
+    result.step *= viscous;
+    result.waveSpeed = fastestWave(state, result.cell);
+    result.size = Shape::size(cells_[result.cell]);
     return result;
 }
 
@@ -431,7 +453,7 @@ std::string ExplicitStep<Shape, phases>::description() const
     words += controls.locking == SolutionControls::Locking::none             ? ""
              : controls.locking == SolutionControls::Locking::meanDilatation ? ", mean dilatation"
                                                                              : ", nodal dilatation";
-    words += threads_ == 1 ? ", 1 thread" : ", " + std::to_string(threads_) + " threads";
+    words += threads_.count() == 1 ? ", 1 thread" : ", " + std::to_string(threads_.count()) + " threads";
     return words;
 }
 
@@ -440,7 +462,6 @@ std::string ExplicitStep<Shape, phases>::description() const
 template <class Shape, int phases>
 void ExplicitStep<Shape, phases>::advance(State& state, double dt)
 {
-    scaleInertia(state);
     if constexpr (twoPhase) {
         updateSurfacePressures(state);
     }
@@ -473,6 +494,14 @@ void ExplicitStep<Shape, phases>::advance(State& state, double dt)
     state.time += dt;
     state.timeStep = dt;
     ++state.step;
+    if (scene_.controls.massScalingBy == SolutionControls::MassScaling::gates) {
+        if (state.step % massScalingInterval == 0) {
+            state.massScaling = adaptedMassScaling(scene_, state);
+            scaleInertia(state);
+        }
+    } else if (scene_.controls.scaleSmallCells) {
+        scaleInertia(state);
+    }
 }
 
 /// Velocities of the bodies: as prescribed, or by Newton's law with the reaction of the last step.
@@ -1366,12 +1395,12 @@ void ExplicitStep<Shape, phases>::updateStress(State& state)
     // the whole.
     constexpr int block = 256;
     MaterialPoints& points = state.points;
-    runParts(threads_, [&](int part) {
+    threads_.run([&](int part) {
         std::vector<double*>& pointers = statePointers_[part];
         for (const PointCells::Run& run : pointCells_.runs()) {
             const int blocks = (run.end - run.begin + block - 1) / block;
-            const int begin = run.begin + block * firstOfPart(blocks, part, threads_);
-            const int end = std::min(run.end, run.begin + block * firstOfPart(blocks, part + 1, threads_));
+            const int begin = run.begin + block * threads_.first(blocks, part);
+            const int end = std::min(run.end, run.begin + block * threads_.first(blocks, part + 1));
             StressBatch batch;
             batch.size = end - begin;
             if (batch.size <= 0) {
@@ -1408,7 +1437,7 @@ template <class Shape, int phases>
 void ExplicitStep<Shape, phases>::relocate(State& state)
 {
     MaterialPoints& points = state.points;
-    runParts(threads_, [&](int part) {
+    threads_.run([&](int part) {
         movers_[part].clear();
         for (int j = cellPart_[part]; j < cellPart_[part + 1]; ++j) {
             const int c = activeCells_[j];

@@ -40,10 +40,14 @@ struct SolutionControls
     double localDamping = 0;           ///< share of the out-of-balance force [-]
     double linearBulkViscosity = 0;    ///< [-]
     double quadraticBulkViscosity = 0; ///< [-]
-    double massScaling = 1;            ///< factor on the inertia of all soil [-]
-    double commonTimeStep = 0;         ///< step that cells are scaled up to [s]; 0: none
-    double inertiaGate = 0.02; ///< of scaled rho v^2 over the vertical effective stress at the tip [-]
-    double energyGate = 0.05;  ///< of kinetic energy over work done [-]
+    /// What the factor on the inertia of the soil is chosen by: given; or as large as the gates allow.
+    enum class MassScaling { given, gates };
+    MassScaling massScalingBy = MassScaling::given;
+    double massScaling = 1; ///< the factor [-], or its upper limit
+    bool scaleSmallCells =
+        false;                ///< scale only the cells whose own step is below that of the smallest, scaled
+    double inertiaGate = 0.1; ///< of scaled rho v^2 over the vertical effective stress at the tip [-]
+    double energyGate = 0.05; ///< of kinetic energy over work done [-]
     /// Share of a checkerboard of pore pressures that is removed every ten steps; smooth fields change by
     /// O(h^4).
     double checkerboardFilter = 0.2;
@@ -108,6 +112,7 @@ struct State
     std::vector<double> pumped;          ///< per free surface: pressure that its pump has made [Pa]
     std::vector<unsigned char> filled;   ///< per cell: integrated as filled (has hysteresis)
     std::vector<double> cellDivergence;  ///< per cell, rate [1/s]; kept for the bulk viscosity alone
+    double massScaling = 1;              ///< factor on the inertia of the soil now
     double time = 0;
     long step = 0;
     double timeStep = 0; ///< of the last step [s]

@@ -47,7 +47,7 @@ std::unique_ptr<TimeStep> makeTimeStep(const Scene& scene, State& state)
     return axisymmetric ? makeForMesh<1, true>(scene, state) : makeForMesh<1, false>(scene, state);
 }
 
-Energies sumEnergies(const Scene& scene, const State& state)
+Energies sumEnergies(const State& state)
 {
     Energies sum;
     const MaterialPoints& points = state.points;
@@ -59,7 +59,7 @@ Energies sumEnergies(const Scene& scene, const State& state)
         sum.momentum[1] += m * points.vz[p];
         sum.kinetic += 0.5 * m * (points.vr[p] * points.vr[p] + points.vz[p] * points.vz[p]);
     }
-    sum.kineticScaled = sum.kinetic * scene.controls.massScaling;
+    sum.kineticScaled = sum.kinetic * state.massScaling;
     return sum;
 }
 

@@ -15,7 +15,7 @@ struct Energies
     double mass = 0, volume = 0;
     std::array<double, 2> momentum{};
 };
-Energies sumEnergies(const Scene& scene, const State& state);
+Energies sumEnergies(const State& state);
 
 /// What limits the time step.
 struct StableStep

@@ -254,9 +254,9 @@ TEST(FreeBody, keepsItsMomentum)
     simulation.fill(soil, 2, 2, [](double x, double z) { return x > 1 && x < 2 && z > 1 && z < 2; });
     simulation.setVelocity([](double, double) { return std::array<double, 2>{3, 2}; });
     simulation.start();
-    const Energies before = sumEnergies(simulation.scene, simulation.state);
+    const Energies before = sumEnergies(simulation.state);
     simulation.run(0.2, 0.5);
-    const Energies after = sumEnergies(simulation.scene, simulation.state);
+    const Energies after = sumEnergies(simulation.state);
     EXPECT_NEAR(after.momentum[0] / before.momentum[0], 1, 1e-12);
     EXPECT_NEAR(after.momentum[1] / before.momentum[1], 1, 1e-12);
     EXPECT_NEAR(after.mass / before.mass, 1, 1e-14);

@@ -49,7 +49,7 @@ TEST(PointLoads, giveTheSoilTheMomentumOfTheirTotalForce)
             const double dt = 1e-4;
             simulation.step->advance(simulation.state, dt);
             const double round = geometry == Geometry::axisymmetric ? 2 * pi : 1;
-            const auto momentum = sumEnergies(simulation.scene, simulation.state).momentum;
+            const auto momentum = sumEnergies(simulation.state).momentum;
             const std::string name =
                 std::string(geometry == Geometry::axisymmetric ? "axisymmetric" : "plane") +
                 (triangles ? " triangles" : " quadrilaterals");
@@ -76,8 +76,7 @@ TEST(PointLoads, growWithTheRadiusWhereTheAreaFollows)
         simulation.start();
         simulation.step->advance(simulation.state, 1e-4);
         expectNear(follows ? "following: force [N/rad]" : "not following: force [N/rad]",
-                   sumEnergies(simulation.scene, simulation.state).momentum[0] / 1e-4,
-                   50 * 0.5 * 1 * (follows ? 2 : 1), 1e-9);
+                   sumEnergies(simulation.state).momentum[0] / 1e-4, 50 * 0.5 * 1 * (follows ? 2 : 1), 1e-9);
     }
 }
 

@@ -104,7 +104,7 @@ double diskError(int n)
     }
     const double duration = 4 * pi * radius / (modes[0] * c);
     const long steps = std::lround(duration / (0.25 * h / c));
-    const double start = sumEnergies(simulation.scene, simulation.state).kinetic;
+    const double start = sumEnergies(simulation.state).kinetic;
     double sum = 0;
     for (long i = 1; i <= steps; ++i) {
         simulation.step->advance(simulation.state, duration / static_cast<double>(steps));
@@ -112,7 +112,7 @@ double diskError(int n)
         for (std::size_t k = 0; k < modes.size(); ++k) {
             exact += share[k] * std::pow(std::cos(modes[k] * c * simulation.state.time / radius), 2);
         }
-        sum += std::pow(sumEnergies(simulation.scene, simulation.state).kinetic / start - exact, 2);
+        sum += std::pow(sumEnergies(simulation.state).kinetic / start - exact, 2);
     }
     return std::sqrt(sum / static_cast<double>(steps));
 }
@@ -215,7 +215,7 @@ void swingBar(double v0, int rows, double tolerance, double energyTolerance)
             error += std::pow(got - exact, 2);
             norm += exact * exact;
         }
-        double energy = sumEnergies(simulation.scene, simulation.state).kinetic;
+        double energy = sumEnergies(simulation.state).kinetic;
         for (std::size_t p = 0; p < points.size(); ++p) { // work of sigma = E ln(stretch)
             const double e = points.stress[1][p] / young;
             energy += points.volume[p] * young * (e - 1 + std::exp(-e));

@@ -220,7 +220,7 @@ void RunOutput::watchGates(const State& state, double kinetic, double work)
                  "quasi-static; lower massScaling or the rate",
                  kinetic / work, controls.energyGate));
     }
-    if (warnedOfInertia_ || controls.massScaling <= 1) {
+    if (warnedOfInertia_ || state.massScaling <= 1) {
         return;
     }
     for (const RigidBody& body : state.bodies) {
@@ -228,7 +228,7 @@ void RunOutput::watchGates(const State& state, double kinetic, double work)
         const double weight =
             soil.weighingDensity() * std::hypot(case_.scene.gravity[0], case_.scene.gravity[1]);
         const double vertical = weight * body.penetration();
-        const double inertia = controls.massScaling * soil.inertialDensity() * body.velocity * body.velocity;
+        const double inertia = state.massScaling * soil.inertialDensity() * body.velocity * body.velocity;
         if (vertical > 0 && inertia > controls.inertiaGate * vertical) {
             warnedOfInertia_ = true;
             log_.warning(text(
@@ -247,7 +247,7 @@ void RunOutput::afterStep(State& state, const TimeStep& step, double courant)
     pointSteps_ += points;
     recordBodies(state);
     if (logDue() || runTime_.writeTime() || !runTime_.running()) {
-        const Energies energies = sumEnergies(case_.scene, state);
+        const Energies energies = sumEnergies(state);
         double work = 0;
         for (const BodyReaction& reaction : state.reactions) {
             work += whole_ * reaction.work;
@@ -267,6 +267,9 @@ void RunOutput::afterStep(State& state, const TimeStep& step, double courant)
         if (state.points.twoPhase()) {
             report.lines.push_back(
                 text("Pore pressure: checkerboard index = %.4f", step.checkerboardIndex(state)));
+        }
+        if (case_.scene.controls.massScalingBy == SolutionControls::MassScaling::gates) {
+            report.lines.push_back(text("Mass scaling = %.4g", state.massScaling));
         }
         log_.step(runTime_, report);
     } else {

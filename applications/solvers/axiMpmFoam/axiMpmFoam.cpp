@@ -120,7 +120,7 @@ int run(const std::filesystem::path& caseDirectory, bool dryRun, const std::stri
         state.time = runTime.time();
         checkMotion(scene, state);
         if (runTime.writeTime() || runTime.index() % 100 == 0) {
-            checkFinite(state, sumEnergies(scene, state), stable.waveSpeed);
+            checkFinite(state, sumEnergies(state), stable.waveSpeed);
         }
         watch.afterStep(state, runTime);
         output.afterStep(state, *step, deltaT / stable.step);
