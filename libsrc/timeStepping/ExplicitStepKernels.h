@@ -453,6 +453,11 @@ std::string ExplicitStep<Shape, phases>::description() const
     words += controls.locking == SolutionControls::Locking::none             ? ""
              : controls.locking == SolutionControls::Locking::meanDilatation ? ", mean dilatation"
                                                                              : ", nodal dilatation";
+#if defined(__AVX512F__)
+    words += ", AVX-512";
+#elif defined(__AVX2__)
+    words += ", AVX2";
+#endif
     words += threads_.count() == 1 ? ", 1 thread" : ", " + std::to_string(threads_.count()) + " threads";
     return words;
 }
