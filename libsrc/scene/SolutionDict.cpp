@@ -29,7 +29,7 @@ constexpr Keyword keywords[] = {
      "given: massScaling itself; gates: as much as inertiaGate and energyGate allow as the run goes"},
     {"massScalingOf", "word", "soil", "soil smallCells",
      "soil: all of it; smallCells: those cells alone whose own step is below that of the smallest, scaled"},
-    {"inertiaGate", "-", "0.1", "(0, inf)",
+    {"inertiaGate", "-", "0.02", "(0, inf)",
      "share of the vertical effective stress at the tip that scaled inertia rho v^2 may have (else a "
      "warning)"},
     {"energyGate", "-", "0.05", "(0, inf)",

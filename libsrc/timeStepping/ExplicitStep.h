@@ -179,10 +179,11 @@ private:
     /// the stress is: the points are samples. Otherwise a cell with few points would have the stiffness of a
     /// full one on a small mass, and rows of points that cross a line would shift weight from cell to cell.
     std::vector<double> fullness_;
-    std::vector<double> gravityShare_; ///< per material: weighing over inertial density
-    std::vector<double> waveSpeed_;    ///< per material
-    std::vector<double> density_;      ///< per material, inertial
-    std::vector<double> solidShare_;   ///< per material: of the solid in the inertial density; 1 of one phase
+    std::vector<double> gravityShare_;  ///< per material: weighing over inertial density
+    std::vector<double> waveSpeed_;     ///< per material
+    std::vector<double> density_;       ///< per material, inertial
+    std::vector<double> largestVolume_; ///< per material: of a point, per mass [m3/kg]
+    std::vector<double> solidShare_; ///< per material: of the solid in the inertial density; 1 of one phase
 
     PointCells pointCells_;
     std::vector<unsigned char> occupied_;

@@ -24,6 +24,11 @@ inline constexpr double fillHysteresis = 0.1;
 /// A node with less than this share of the mass of evenly filled cells is loose.
 inline constexpr double looseShare = 0.6;
 
+/// Soil that yields comes apart beyond this multiple of its first volume (a porosity of 0.57 from 0.35): what
+/// a point gains then is void, not soil. A grain that flies would otherwise come back as a light body of
+/// great volume, stiffer than the step allows.
+inline constexpr double largestExpansion = 1.5;
+
 /// Corner 0 of an axis-parallel rectangle is to be the lower left one.
 inline int firstCorner(const BackgroundMesh& mesh, int cell)
 {
@@ -108,6 +113,9 @@ ExplicitStep<Shape, phases>::ExplicitStep(const Scene& scene, State& state)
 
     for (const Material& material : scene.materials) {
         density_.push_back(material.inertialDensity());
+        largestVolume_.push_back(material.law->plastic()
+                                     ? kernels::largestExpansion / material.inertialDensity()
+                                     : std::numeric_limits<double>::max());
         gravityShare_.push_back(material.weighingDensity() / material.inertialDensity());
         waveSpeed_.push_back(twoPhase ? kernels::fastWave(material)
                                       : std::sqrt(material.law->pWaveModulus() / material.inertialDensity()));
@@ -1171,7 +1179,8 @@ void ExplicitStep<Shape, phases>::mapCellToPoints(State& state, double dt, int c
                 }
                 points.porePressure[p] = pressure;
             }
-            points.volume[p] *= 1 + e * (1 + 0.5 * e); // exp(e): the integral of the rate
+            points.volume[p] = std::min(points.volume[p] * (1 + e * (1 + 0.5 * e)), // exp(e)
+                                        points.mass[p] * largestVolume_[points.material[p]]);
         }
         if constexpr (velocities) {
             double changeR = 0, changeZ = 0, placeR = 0, placeZ = 0, newR = 0, newZ = 0;

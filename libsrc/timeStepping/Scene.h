@@ -45,9 +45,9 @@ struct SolutionControls
     MassScaling massScalingBy = MassScaling::given;
     double massScaling = 1; ///< the factor [-], or its upper limit
     bool scaleSmallCells =
-        false;                ///< scale only the cells whose own step is below that of the smallest, scaled
-    double inertiaGate = 0.1; ///< of scaled rho v^2 over the vertical effective stress at the tip [-]
-    double energyGate = 0.05; ///< of kinetic energy over work done [-]
+        false;                 ///< scale only the cells whose own step is below that of the smallest, scaled
+    double inertiaGate = 0.02; ///< of scaled rho v^2 over the vertical effective stress at the tip [-]
+    double energyGate = 0.05;  ///< of kinetic energy over work done [-]
     /// Share of a checkerboard of pore pressures that is removed every ten steps; smooth fields change by
     /// O(h^4).
     double checkerboardFilter = 0.2;

@@ -262,6 +262,41 @@ TEST(FreeBody, keepsItsMomentum)
     EXPECT_NEAR(after.mass / before.mass, 1, 1e-14);
 }
 
+// A heap of sand bursts in a closed box: grains that have come far apart hold no more soil than loose sand
+// does, and where they meet walls and each other again the step is short enough for them.
+TEST(FreeBody, ofSandThatBurstsStaysStable)
+{
+    Simulation simulation;
+    simulation.state.mesh = structuredMesh(evenLines(0, 1, 10), evenLines(0, 1, 10), Geometry::planeStrain);
+    const int sand = simulation.addMaterial(
+        "sand", "law mohrCoulomb; porosity 0.35; solidDensity 2650; liquidDensity 1000; weight submerged; "
+                "youngsModulus 60e6; poissonsRatio 0.25; frictionAngle 38; dilatancyAngle 1; cohesion 0;");
+    simulation.setConditions(
+        "left { type slip; } right { type slip; } bottom { type slip; } top { type slip; }");
+    simulation.fill(sand, 2, 2, [](double x, double z) { return std::hypot(x - 0.5, z - 0.5) < 0.25; });
+    simulation.setVelocity([](double x, double z) {
+        return std::array<double, 2>{20 * (x - 0.5), 16 * (z - 0.5)};
+    });
+    simulation.start();
+    const MaterialPoints& points = simulation.state.points;
+    const std::vector<double> before = points.volume;
+    const double speed = largestSpeed(simulation.state);
+    double expansion = 0;
+    double fastest = 0;
+    for (int i = 1; i <= 40; ++i) {
+        simulation.run(0.01 * i, 0.8);
+        for (std::size_t p = 0; p < points.size(); ++p) {
+            const double first = points.mass[p] / simulation.scene.materials[0].inertialDensity();
+            expansion = std::max(expansion, points.volume[p] / first);
+        }
+        fastest = std::max(fastest, largestSpeed(simulation.state));
+    }
+    ASSERT_EQ(points.size(), before.size());
+    std::printf("largest expansion %.3f, fastest %.3f of the first speed\n", expansion, fastest / speed);
+    EXPECT_NEAR(expansion, 1.5, 1e-12) << "they have come apart";
+    EXPECT_LT(fastest, 1.5 * speed);
+}
+
 // A skirt pushed into sand: no point ends inside the wall, and the soil pushes back.
 TEST(Skirt, isResistedAndKeepsPointsOutOfItsWall)
 {

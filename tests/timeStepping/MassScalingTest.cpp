@@ -32,6 +32,7 @@ Simulation skirtOnItsWay()
         return std::array<double, 4>{0.384 * weight * z, weight * z, 0.384 * weight * z, 0};
     });
     simulation.scene.controls.massScaling = 1000;
+    simulation.scene.controls.inertiaGate = 0.1;
     simulation.scene.controls.massScalingBy = SolutionControls::MassScaling::gates;
     simulation.start();
     return simulation;
