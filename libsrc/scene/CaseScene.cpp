@@ -83,11 +83,11 @@ void readLiquid(const std::filesystem::path& caseDirectory, const std::string& s
     for (const Material& material : result.scene.materials) {
         if (material.intrinsicPermeability <= 0) {
             problems.add(materialsFile, "'" + material.name + "' has no intrinsicPermeability",
-                         "two-phase soil (phases 2) needs it, in m2: 1e-11 is a fine sand");
+                         "soil with pore water needs it, in m2: 1e-11 is a fine sand");
         }
         if (material.weight != Weight::submerged) {
             problems.add(materialsFile, "'" + material.name + "' has a weight other than submerged",
-                         "in two-phase soil the liquid bears its own weight: leave the key out");
+                         "the pore water bears its own weight: leave the key out");
         }
         if (material.porosity <= 0) {
             problems.add(materialsFile, "'" + material.name + "' has no porosity");
@@ -346,9 +346,18 @@ CaseScene readCaseScene(const std::filesystem::path& caseDirectory, const std::f
         }
     }
     readConditions(caseDirectory, start, polyMesh, result, problems);
-    if (scene.controls.phases == 2) {
+    const bool seepage = scene.controls.pressureCoupling == SolutionControls::PressureCoupling::quasiSteady;
+    if (scene.controls.phases == 2 || seepage) {
         // A time that a run wrote holds the pressures, but not all of the conditions.
         readLiquid(caseDirectory, restarted ? "0" : start.filename().string(), polyMesh, result, problems);
+    }
+
+    for (const FreeSurface& surface : scene.freeSurfaces) {
+        if (seepage && surface.pumpFlow) {
+            problems.add({"0/p", 0},
+                         "free surface '" + surface.name + "' has a pump, but seepage is quasi-steady",
+                         "give its pressure or suction; or phases 2");
+        }
     }
 
     if (restarted) {

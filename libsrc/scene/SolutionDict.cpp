@@ -17,6 +17,14 @@ constexpr Keyword keywords[] = {
      "treatment of locking; automatic: meanDilatation on quadrilaterals, nodalAverage on triangles"},
     {"velocityRemap", "word", "loose", "none loose all",
      "nodes whose velocity is mapped again from the points before strains are taken from it"},
+    {"pressureCoupling", "word", "explicit", "explicit quasiSteady",
+     "pore water: a phase of its own in the explicit step (phases 2), or steady seepage through drained soil "
+     "(phases 1)"},
+    {"seepageInterval", "m", "0.02", "(0, inf)",
+     "penetration of a body between two solutions of quasiSteady"},
+    {"seepageRamp", "s", "0.2", "[0, inf)", "time over which the pressures of quasiSteady set in"},
+    {"seepageGate", "-", "0.05", "(0, inf)",
+     "warn where what quasiSteady leaves out passes this share of the pressures"},
     {"flipShare", "-", "1", "[0, 1]", "share of the FLIP velocity update per step, the rest is PIC"},
     {"picTime", "s", "0", "[0, inf)", "time over which velocities relax to the PIC ones; 0 is never"},
     {"localDamping", "-", "0", "[0, 1)",
@@ -77,6 +85,18 @@ SolutionControls readSolutionControls(const Dictionary& mpmSolution, bool triang
     controls.remap = remap == "none"  ? SolutionControls::Remap::none
                      : remap == "all" ? SolutionControls::Remap::all
                                       : SolutionControls::Remap::loose;
+    controls.pressureCoupling = reader.word("pressureCoupling") == "quasiSteady"
+                                    ? SolutionControls::PressureCoupling::quasiSteady
+                                    : SolutionControls::PressureCoupling::explicitStep;
+    if (controls.phases == 2 &&
+        controls.pressureCoupling == SolutionControls::PressureCoupling::quasiSteady) {
+        reader.problem("pressureCoupling",
+                       "quasiSteady goes with phases 1: the soil is drained, and loaded by seepage",
+                       "phases 1; or pressureCoupling explicit");
+    }
+    controls.seepageInterval = reader.number("seepageInterval");
+    controls.seepageRamp = reader.number("seepageRamp");
+    controls.seepageGate = reader.number("seepageGate");
     controls.flipShare = reader.number("flipShare");
     controls.picTime = reader.number("picTime");
     controls.localDamping = reader.number("localDamping");

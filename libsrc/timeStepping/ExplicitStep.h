@@ -27,6 +27,7 @@ public:
     void advance(State& state, double dt) override;
     [[nodiscard]] StableStep stableStep(const State& state) const override;
     void rebuild(State& state) override;
+    void setSeepage(const State& state, const std::vector<double>& excess) override;
     [[nodiscard]] CellCounts cellCounts(const State& state) const override;
     [[nodiscard]] std::string description() const override;
     [[nodiscard]] std::vector<std::array<double, 2>> nodalVelocities(const State& state) const override;
@@ -123,6 +124,7 @@ private:
     void addPointLoads(const State& state, int c);
     void solveNodes(State& state, double dt);
     void findFreeSurfaces(const State& state);
+    void updateWallAreas(const State& state);
     void prepareLiquid(const State& state);
     void updateSurfacePressures(const State& state);
     [[nodiscard]] double suction(const RigidBody& body) const;
@@ -192,12 +194,21 @@ private:
     std::vector<unsigned char> looseNode_;   ///< on a surface, or with a mass well below that of full cells
     std::vector<unsigned char> byLoose_;     ///< per cell: has a loose node
     std::vector<int> activeCells_, activeNodes_;
+    std::vector<unsigned char> activeNode_;
     bool occupancyChanged_ = true;
 
     std::vector<Corner> cornerSums_;
     std::vector<Node> nodes_;
     std::vector<std::array<double, 2>> traction_;
-    // Two phases only; empty otherwise.
+    // Soil with pore water; empty otherwise.
+    std::vector<double> surfacePressure_;          ///< per free surface: excess pressure now [Pa]
+    std::vector<std::array<double, 2>> wallArea_;  ///< per node: normals of bodies into the soil times area
+    std::vector<std::array<double, 2>> waterLoad_; ///< per node: of pressures on patches; of all seepage
+    double unitWeight_ = 0;                        ///< of the liquid, along z [N/m3]: negative
+    // Quasi-steady seepage only.
+    std::vector<double> seepage_;   ///< per node: excess pressure [Pa]
+    std::vector<double> wallWater_; ///< per body: vertical force of the water on it [N/rad or N/m]
+    // Two phases only.
     std::vector<LiquidCorner> liquidCorners_;
     std::vector<LiquidNode> liquidNodes_;
     std::vector<std::array<bool, 2>> solidHeld_;   ///< per node of the liquid's boundary and direction
@@ -206,13 +217,9 @@ private:
     std::vector<int> voidCells_;                   ///< empty cells with active nodes
     bool pumped_ = false;                          ///< a free surface has a pump
     std::vector<std::array<double, 2>> voidForce_; ///< per corner, of a unit pressure in the void; with pumps
-    std::vector<double> surfacePressure_;          ///< per free surface: excess pressure now [Pa]
-    std::vector<std::array<double, 2>> wallArea_;  ///< per node: normals of bodies into the soil times area
-    std::vector<std::array<double, 2>> waterLoad_; ///< per node: of pressures on patches
     std::vector<double> givenPressure_;            ///< per node: excess pressure of a boundary, or NaN
     std::vector<double> pressureShape_;            ///< per point: pressure interpolated from the nodes
     mutable std::vector<double> cellPressure_, cellAverage_; ///< of the filter
-    double unitWeight_ = 0;                                  ///< of the liquid, along z [N/m3]: negative
     std::vector<double> cellLiquidRate_;                     ///< as cellRate_, for the liquid
     std::vector<double> loadedArea_;                         ///< per load: of its points (see loadedAreas)
     std::vector<std::array<double, 2>> pointTraction_;       ///< per load, now [Pa]

@@ -157,6 +157,8 @@ ExplicitStep<Shape, phases>::ExplicitStep(const Scene& scene, State& state)
     looseNode_.resize(mesh.nodes());
     byLoose_.resize(cells);
     traction_.resize(mesh.nodes());
+    unitWeight_ = scene.materials.front().liquidDensity * scene.gravity[1];
+    surfacePressure_.resize(scene.freeSurfaces.size());
     loadedArea_ = loadedAreas(state.points, scene.pointLoads.size(), mesh.geometry);
     pointTraction_.resize(scene.pointLoads.size());
     cellRate_.assign(cells, 0);
@@ -165,11 +167,9 @@ ExplicitStep<Shape, phases>::ExplicitStep(const Scene& scene, State& state)
         liquidNodes_.resize(mesh.nodes());
         wallArea_.resize(mesh.nodes());
         givenPressure_.resize(mesh.nodes());
-        unitWeight_ = scene.materials.front().liquidDensity * scene.gravity[1];
         waterLoad_.resize(mesh.nodes());
         cellLiquidRate_.assign(cells, 0);
         pressureShape_.resize(state.points.size());
-        surfacePressure_.resize(scene.freeSurfaces.size());
         for (const FreeSurface& surface : scene.freeSurfaces) {
             pumped_ = pumped_ || surface.pumpFlow;
         }
@@ -280,17 +280,17 @@ void ExplicitStep<Shape, phases>::classifyCells(State& state)
             }
         }
         bySurface_.assign(cells, 0);
-        std::vector<unsigned char> active(state.mesh.nodes(), 0);
+        activeNode_.assign(state.mesh.nodes(), 0);
         for (const int c : activeCells_) {
             for (int k = 0; k < corners; ++k) {
                 const int i = cellNodes_[c * corners + k];
                 bySurface_[c] |= surfaceNode_[i];
-                active[i] = 1;
+                activeNode_[i] = 1;
             }
         }
         activeNodes_.clear();
         for (int i = 0; i < state.mesh.nodes(); ++i) {
-            if (active[i]) {
+            if (activeNode_[i]) {
                 activeNodes_.push_back(i);
             }
         }
@@ -299,7 +299,7 @@ void ExplicitStep<Shape, phases>::classifyCells(State& state)
             for (int c = 0; c < cells; ++c) {
                 bool active_ = false;
                 for (int k = 0; k < corners; ++k) {
-                    active_ = active_ || active[cellNodes_[c * corners + k]];
+                    active_ = active_ || activeNode_[cellNodes_[c * corners + k]];
                 }
                 if (active_ && !occupied_[c] && !inside_[c] && freeSurface_[c] >= 0) {
                     voidCells_.push_back(c);
@@ -475,9 +475,7 @@ std::string ExplicitStep<Shape, phases>::description() const
 template <class Shape, int phases>
 void ExplicitStep<Shape, phases>::advance(State& state, double dt)
 {
-    if constexpr (twoPhase) {
-        updateSurfacePressures(state);
-    }
+    updateSurfacePressures(state);
     if (state.step == 0) {
         staggerStrain(state, dt);
     }
@@ -491,6 +489,10 @@ void ExplicitStep<Shape, phases>::advance(State& state, double dt)
         if (pumped_) {
             pump(state, dt);
         }
+    }
+    for (std::size_t b = 0; b < wallWater_.size(); ++b) {
+        state.reactions[b].waterImpulse += dt * wallWater_[b];
+        state.reactions[b].work -= dt * wallWater_[b] * state.bodies[b].velocity;
     }
     for (std::size_t b = 0; b < state.bodies.size(); ++b) {
         state.reactions[b].force = (state.reactions[b].totalVerticalImpulse() - impulseBefore_[b]) / dt;
@@ -525,9 +527,7 @@ void ExplicitStep<Shape, phases>::moveBodies(State& state, double dt)
     for (std::size_t b = 0; b < state.bodies.size(); ++b) {
         RigidBody& body = state.bodies[b];
         state.reactions[b].duration += dt;
-        if constexpr (twoPhase) {
-            state.reactions[b].suction = suction(body);
-        }
+        state.reactions[b].suction = suction(body);
         if (!body.loadControlled) {
             body.velocity = body.prescribedVelocity(state.time + dt);
             continue;
@@ -535,6 +535,106 @@ void ExplicitStep<Shape, phases>::moveBodies(State& state, double dt)
         const double force = whole * state.reactions[b].force - body.drivingLoad(state.time) -
                              state.reactions[b].suction * body.enclosedArea(axisymmetric);
         body.velocity += dt * force / body.mass;
+    }
+}
+
+template <class Shape, int phases>
+void ExplicitStep<Shape, phases>::updateSurfacePressures(const State& state)
+{
+    for (std::size_t s = 0; s < surfacePressure_.size(); ++s) {
+        surfacePressure_[s] = excessPressure(scene_.freeSurfaces[s], state.bodies, state.time, unitWeight_) +
+                              (twoPhase ? state.pumped[s] : 0.0);
+    }
+}
+
+/// What the water within a body pulls it down by: the pressure outside less that inside [Pa].
+template <class Shape, int phases>
+double ExplicitStep<Shape, phases>::suction(const RigidBody& body) const
+{
+    double inside = 0;
+    double outside = 0;
+    for (std::size_t s = surfacePressure_.size(); s-- > 0;) { // the first that holds counts
+        const FreeSurface& surface = scene_.freeSurfaces[s];
+        if (surface.region == FreeSurface::Region::all) {
+            inside = outside = surfacePressure_[s];
+        } else if (surface.body == body.name) {
+            (surface.region == FreeSurface::Region::inside ? inside : outside) = surfacePressure_[s];
+        }
+    }
+    return outside - inside;
+}
+
+template <class Shape, int phases>
+void ExplicitStep<Shape, phases>::updateWallAreas(const State& state)
+{
+    for (BodySurface& surface : surfaces_) {
+        updateAreas(surface, state.mesh);
+        for (const SurfaceNode& contact : surface.nodes) {
+            std::array<double, 2>& area = wallArea_[contact.node];
+            area = {};
+            for (int f = 0; f < contact.faces; ++f) {
+                area[0] += contact.area[f] * contact.normal[f][0];
+                area[1] += contact.area[f] * contact.normal[f][1];
+            }
+        }
+    }
+}
+
+/// Drained soil in seepage bears the integral of -grad p: that of p B over its cells, with p as mean and
+/// slopes from the nodes, less what patches and walls bear. Voids above the soil are filled with water of the
+/// pressure that the nodes of its surface have.
+template <class Shape, int phases>
+void ExplicitStep<Shape, phases>::setSeepage(const State& state, const std::vector<double>& excess)
+{
+    seepage_ = excess;
+    waterLoad_.assign(state.mesh.nodes(), {});
+    wallArea_.resize(state.mesh.nodes());
+    wallWater_.assign(state.bodies.size(), 0);
+    for (int c = 0; c < state.mesh.cells(); ++c) {
+        if (inside_[c]) {
+            continue;
+        }
+        double p[corners];
+        for (int k = 0; k < corners; ++k) {
+            p[k] = excess[cellNodes_[c * corners + k]];
+        }
+        if (!occupied_[c]) {
+            double ofSurface = 0;
+            for (int k = 0; k < corners; ++k) {
+                ofSurface = activeNode_[cellNodes_[c * corners + k]] ? p[k] : ofSurface;
+            }
+            std::fill_n(p, corners, ofSurface);
+        }
+        const shapes::Moments<corners> m = Shape::moments(cells_[c]);
+        double part[3] = {}; // mean and slopes
+        for (int k = 0; k < corners; ++k) {
+            part[0] += m.n[k] * p[k];
+        }
+        if constexpr (corners == 4) {
+            part[1] = 0.25 * (-p[0] + p[1] + p[2] - p[3]);
+            part[2] = 0.25 * (-p[0] - p[1] + p[2] + p[3]);
+        }
+        for (int k = 0; k < corners; ++k) {
+            std::array<double, 2>& load = waterLoad_[cellNodes_[c * corners + k]];
+            for (int j = 0; j < shapes::Moments<corners>::count; ++j) {
+                load[0] += m.volume * part[j] * (m.gr[j][k] + m.h[j][k]);
+                load[1] += m.volume * part[j] * m.gz[j][k];
+            }
+        }
+    }
+    if (scene_.liquidBoundary.hasPressures()) {
+        scene_.liquidBoundary.addPressures(state.mesh, state.time, unitWeight_, waterLoad_);
+    }
+    updateWallAreas(state);
+    for (std::size_t b = 0; b < surfaces_.size(); ++b) {
+        for (const SurfaceNode& contact : surfaces_[b].nodes) {
+            const int i = contact.node;
+            if (activeNode_[i]) {
+                waterLoad_[i][0] += excess[i] * wallArea_[i][0];
+                waterLoad_[i][1] += excess[i] * wallArea_[i][1];
+                wallWater_[b] -= excess[i] * wallArea_[i][1];
+            }
+        }
     }
 }
 
@@ -804,6 +904,7 @@ void ExplicitStep<Shape, phases>::solveNodes(State& state, double dt)
 {
     const double damping = scene_.controls.localDamping;
     const bool tractions = scene_.conditions.hasTractions();
+    const bool seepage = !twoPhase && !seepage_.empty();
     forNodes([&](int i) {
         Corner sum{};
         for (int k = nodeCorners_.start[i]; k < nodeCorners_.start[i + 1]; ++k) {
@@ -828,6 +929,10 @@ void ExplicitStep<Shape, phases>::solveNodes(State& state, double dt)
         if (tractions) {
             sum.forceR += traction_[i][0];
             sum.forceZ += traction_[i][1];
+        }
+        if (seepage) {
+            sum.forceR += waterLoad_[i][0];
+            sum.forceZ += waterLoad_[i][1];
         }
         if constexpr (twoPhase) {
             solveTwoPhaseNode(i, sum, dt);
@@ -1550,6 +1655,9 @@ std::vector<double> ExplicitStep<Shape, phases>::nodalPressures(const State& sta
 {
     const MaterialPoints& points = state.points;
     std::vector<double> pressure(state.mesh.nodes(), 0);
+    for (std::size_t i = 0; i < seepage_.size(); ++i) {
+        pressure[i] = activeNode_[i] ? seepage_[i] + unitWeight_ * state.mesh.z[i] : 0;
+    }
     if (!points.twoPhase()) {
         return pressure;
     }

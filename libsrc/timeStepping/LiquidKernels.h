@@ -27,45 +27,9 @@ void ExplicitStep<Shape, phases>::findFreeSurfaces(const State& state)
 }
 
 template <class Shape, int phases>
-void ExplicitStep<Shape, phases>::updateSurfacePressures(const State& state)
-{
-    for (std::size_t s = 0; s < surfacePressure_.size(); ++s) {
-        surfacePressure_[s] =
-            excessPressure(scene_.freeSurfaces[s], state.bodies, state.time, unitWeight_) + state.pumped[s];
-    }
-}
-
-/// What the water within a body pulls it down by: the pressure outside less that inside [Pa].
-template <class Shape, int phases>
-double ExplicitStep<Shape, phases>::suction(const RigidBody& body) const
-{
-    double inside = 0;
-    double outside = 0;
-    for (std::size_t s = surfacePressure_.size(); s-- > 0;) { // the first that holds counts
-        const FreeSurface& surface = scene_.freeSurfaces[s];
-        if (surface.region == FreeSurface::Region::all) {
-            inside = outside = surfacePressure_[s];
-        } else if (surface.body == body.name) {
-            (surface.region == FreeSurface::Region::inside ? inside : outside) = surfacePressure_[s];
-        }
-    }
-    return outside - inside;
-}
-
-template <class Shape, int phases>
 void ExplicitStep<Shape, phases>::prepareLiquid(const State& state)
 {
-    for (BodySurface& surface : surfaces_) {
-        updateAreas(surface, state.mesh);
-        for (const SurfaceNode& contact : surface.nodes) {
-            std::array<double, 2>& area = wallArea_[contact.node];
-            area = {};
-            for (int f = 0; f < contact.faces; ++f) {
-                area[0] += contact.area[f] * contact.normal[f][0];
-                area[1] += contact.area[f] * contact.normal[f][1];
-            }
-        }
-    }
+    updateWallAreas(state);
     if (scene_.liquidBoundary.hasPressures()) {
         std::ranges::fill(waterLoad_, std::array<double, 2>{});
         scene_.liquidBoundary.addPressures(state.mesh, state.time, unitWeight_, waterLoad_);

@@ -30,6 +30,15 @@ struct SolutionControls
     /// Drag between liquid and solid: implicit at the nodes, or with the velocities of the step before.
     enum class Drag { implicit, lagged };
 
+    /// How the pore pressure of soil follows it: a second phase in the explicit step; or (one phase) steady
+    /// seepage between the surfaces as they are now, whose gradient loads the drained soil.
+    enum class PressureCoupling { explicitStep, quasiSteady };
+
+    PressureCoupling pressureCoupling = PressureCoupling::explicitStep;
+    double seepageInterval =
+        0.02;                  ///< penetration of a body between two solutions of quasi-steady seepage [m]
+    double seepageRamp = 0.2;  ///< time over which quasi-steady seepage sets in [s]
+    double seepageGate = 0.05; ///< of the pressure that steady seepage leaves out, over the suction [-]
     int phases = 1; ///< 1: soil, drained or dry; 2: soil and liquid with velocities of their own (v-w)
     Drag drag = Drag::implicit;
     Integration integration = Integration::mixed;

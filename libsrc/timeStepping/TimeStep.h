@@ -42,12 +42,14 @@ public:
     /// Rebuilds what is not state (order of the points, lists) from the state: at the start and after every
     /// write, so that a restart sees the same.
     virtual void rebuild(State& state) = 0;
+    /// Loads drained soil and bodies with the excess pore pressures of the nodes [Pa], until new ones come.
+    virtual void setSeepage(const State& state, const std::vector<double>& excess) = 0;
     [[nodiscard]] virtual CellCounts cellCounts(const State& state) const = 0;
     [[nodiscard]] virtual std::string description() const = 0; ///< of the kernel chosen, for the log
     /// Velocity of the soil at the nodes of the mesh [m/s], mapped from the points; for output.
     [[nodiscard]] virtual std::vector<std::array<double, 2>> nodalVelocities(const State& state) const = 0;
-    /// Pore pressure at the nodes [Pa], the mean of the points round each; zero where there are none. Two
-    /// phases only.
+    /// Pore pressure at the nodes [Pa]: the mean of the points round each, or that of quasi-steady seepage;
+    /// zero where there is none.
     [[nodiscard]] virtual std::vector<double> nodalPressures(const State& state) const = 0;
     /// Standard deviation of the cells' excess pore pressures from the means of their nodes, over that of the
     /// pressures; 0 where there are none. A checkerboard has 1, a smooth field O(h^2).

@@ -2,6 +2,7 @@
 
 #include "scene/SeepageScene.h"
 
+#include "scene/QuasiSteadySeepage.h"
 #include "support/Simulation.h"
 #include "support/StructuredMesh.h"
 
@@ -15,7 +16,7 @@ namespace caisson::testing {
 namespace {
 
 /// A caisson of 2.4 m in elastic soil of high permeability, with a suction on its plug.
-Simulation caissonUnderSuction(double suction)
+Simulation caissonUnderSuction(double suction, int phases = 2)
 {
     Simulation simulation;
     simulation.state.mesh =
@@ -24,7 +25,7 @@ Simulation caissonUnderSuction(double suction)
         "soil",
         "law linearElastic; porosity 0.35; solidDensity 2650; youngsModulus 60e6; poissonsRatio 0.25; "
         "intrinsicPermeability 1e-8; liquidBulkModulus 2e7;");
-    simulation.scene.controls.phases = 2;
+    simulation.scene.controls.phases = phases;
     simulation.scene.gravity = {0, -9.81};
     simulation.setConditions("right { type slip; } bottom { type slip; } top { type zeroGradient; }");
     simulation.setPressures(
@@ -40,13 +41,15 @@ Simulation caissonUnderSuction(double suction)
     plug.pressure = constantFunction1(-suction);
     simulation.scene.freeSurfaces.push_back(std::move(plug));
     simulation.fill(soil, 2, 2, [](double r, double z) { return z < 0 && !(r > 1 && r < 1.2 && z > -1); });
-    simulation.state.points.addLiquid();
     const double weight = 0.65 * 1650 * 9.81;
     simulation.setStress([&](double, double z) {
         return std::array<double, 4>{weight * z / 3, weight * z, weight * z / 3, 0};
     });
     MaterialPoints& points = simulation.state.points;
-    for (std::size_t p = 0; p < points.size(); ++p) {
+    if (phases == 2) {
+        points.addLiquid();
+    }
+    for (std::size_t p = 0; p < points.porePressure.size(); ++p) {
         points.porePressure[p] = -9810 * points.z[p];
     }
     return simulation;
@@ -76,6 +79,57 @@ TEST(SeepageScene, theTwoPhaseStepSettlesToTheSteadySeepage)
         std::sqrt(error) / suction, largest / suction);
     EXPECT_LT(std::sqrt(error) / suction, 1e-2);
     EXPECT_GT(largest / suction, 0.9); // there is a flow at all
+}
+
+// Drained soil loaded by steady seepage comes to rest with the effective stress, and the force of the water
+// on the caisson, that two phases come to rest with.
+TEST(QuasiSteadySeepage, leavesTheEffectiveStressThatTwoPhasesSettleTo)
+{
+    const double suction = 5e3;
+    Simulation two = caissonUnderSuction(suction);
+    two.scene.controls.localDamping = 0.3;
+    two.start();
+    two.run(0.6, 0.8);
+    two.state.reactions[0].restartCollection();
+    two.run(0.65, 0.8);
+
+    Simulation one = caissonUnderSuction(suction, 1);
+    one.scene.controls.localDamping = 0.3;
+    one.scene.controls.pressureCoupling = SolutionControls::PressureCoupling::quasiSteady;
+    one.start();
+    QuasiSteadySeepage seepage(one.scene);
+    EXPECT_TRUE(seepage.update(one.state, *one.step, true));
+    EXPECT_FALSE(seepage.update(one.state, *one.step, false)) << "nothing has moved on";
+    while (one.state.time < 0.65) {
+        one.run(one.state.time + 0.002, 0.8);
+        seepage.update(one.state, *one.step, false);
+    }
+    EXPECT_NEAR(one.state.reactions[0].suction, suction, 1e-9);
+    one.state.reactions[0].restartCollection();
+    one.run(0.7, 0.8);
+
+    const auto byId = [](const MaterialPoints& points) {
+        std::vector<double> stress(points.size());
+        for (std::size_t p = 0; p < points.size(); ++p) {
+            stress[points.id[p]] = points.stress[1][p];
+        }
+        return stress;
+    };
+    const std::vector<double> expected = byId(two.state.points);
+    const std::vector<double> got = byId(one.state.points);
+    double difference = 0;
+    for (std::size_t i = 0; i < got.size(); ++i) {
+        difference += std::pow(got[i] - expected[i], 2) / static_cast<double>(got.size());
+    }
+    const BodyReaction& ofTwo = two.state.reactions[0];
+    const BodyReaction& ofOne = one.state.reactions[0];
+    const double water = ofTwo.waterImpulse / ofTwo.duration;
+    std::printf("vertical effective stress: rms difference %.2e of the suction, tolerance 1e-2\n"
+                "force of the water on the caisson: %.4g N/rad, expected %.4g, tolerance 2 %%\n",
+                std::sqrt(difference) / suction, ofOne.waterImpulse / ofOne.duration, water);
+    EXPECT_LT(std::sqrt(difference) / suction, 1e-2);
+    EXPECT_NEAR(ofOne.waterImpulse / ofOne.duration / water, 1, 2e-2);
+    EXPECT_LT(seepage.leftOut(), 0.01) << "nothing moves any more";
 }
 
 /// A pump that takes out what steady seepage brings at a suction arrives at that suction.

@@ -220,7 +220,8 @@ void RunOutput::watchGates(const State& state, double kinetic, double work)
                  "quasi-static; lower massScaling or the rate",
                  kinetic / work, controls.energyGate));
     }
-    if (warnedOfInertia_ || state.massScaling <= 1) {
+    if (warnedOfInertia_ || state.massScaling <= 1 ||
+        controls.massScalingBy == SolutionControls::MassScaling::gates) {
         return;
     }
     for (const RigidBody& body : state.bodies) {
@@ -239,7 +240,8 @@ void RunOutput::watchGates(const State& state, double kinetic, double work)
     }
 }
 
-void RunOutput::afterStep(State& state, const TimeStep& step, double courant)
+void RunOutput::afterStep(State& state, const TimeStep& step, double courant,
+                          const QuasiSteadySeepage* seepage)
 {
     const double now = Log::processorSeconds();
     stepSeconds_ += now - lastMark_;
@@ -267,6 +269,16 @@ void RunOutput::afterStep(State& state, const TimeStep& step, double courant)
         if (state.points.twoPhase()) {
             report.lines.push_back(
                 text("Pore pressure: checkerboard index = %.4f", step.checkerboardIndex(state)));
+        }
+        if (seepage) {
+            report.lines.push_back(seepage->report());
+            if (!warnedOfSeepage_ && seepage->leftOut() > case_.scene.controls.seepageGate) {
+                warnedOfSeepage_ = true;
+                log_.warning(text(
+                    "what quasi-steady seepage leaves out is %.3g of its pressures, above seepageGate %.3g: "
+                    "the soil is not drained at this rate; phases 2 computes it",
+                    seepage->leftOut(), case_.scene.controls.seepageGate));
+            }
         }
         if (case_.scene.controls.massScalingBy == SolutionControls::MassScaling::gates) {
             report.lines.push_back(text("Mass scaling = %.4g", state.massScaling));
@@ -302,7 +314,7 @@ void RunOutput::write(const State& state, const TimeStep& step)
             }
         }
         writeField(folder, velocity, true, "[0 1 -1 0 0 0 0]", case_.patchEntries, style);
-        if (state.points.twoPhase()) {
+        if (!case_.pressureEntries.empty()) {
             NamedField pressure{"p", FieldKind::scalar,
                                 std::vector<double>(static_cast<std::size_t>(mesh.polyMeshPoints), 0.0)};
             const auto nodalPressure = step.nodalPressures(state);

@@ -4,6 +4,7 @@
 #include "case/Monitor.h"
 #include "case/RunTime.h"
 #include "scene/CaseScene.h"
+#include "scene/QuasiSteadySeepage.h"
 
 #include <memory>
 
@@ -41,7 +42,8 @@ class RunOutput
 public:
     RunOutput(RunTime& runTime, const CaseScene& caseScene, Log& log);
     [[nodiscard]] bool logDue() const;
-    void afterStep(State& state, const TimeStep& step, double courant);
+    /// @param seepage  of a run with quasi-steady seepage, else null
+    void afterStep(State& state, const TimeStep& step, double courant, const QuasiSteadySeepage* seepage);
     void write(const State& state, const TimeStep& step);
     /// Speed and memory, at the end.
     void summary(const State& state) const;
@@ -64,7 +66,7 @@ private:
     Log& log_;
     double whole_ = 1; ///< 2 pi where quantities are per radian
     std::vector<BodyOutput> bodies_;
-    bool warnedOfEnergy_ = false, warnedOfInertia_ = false;
+    bool warnedOfEnergy_ = false, warnedOfInertia_ = false, warnedOfSeepage_ = false;
     double stepSeconds_ = 0, lastMark_ = 0; ///< processor time in steps, output apart
     double pointSteps_ = 0;
 };

@@ -10,6 +10,7 @@
 #include "case/RunTime.h"
 #include "dictionary/Text.h"
 #include "scene/CaseScene.h"
+#include "scene/QuasiSteadySeepage.h"
 #include "scene/StabilityWatch.h"
 
 #include <boost/program_options.hpp>
@@ -75,6 +76,11 @@ int run(const std::filesystem::path& caseDirectory, bool dryRun, const std::stri
     const std::unique_ptr<TimeStep> step = makeTimeStep(scene, state);
     printPlan(log, control, scene, state, *step);
     checkTimeStep(runTime, control.adjustTimeStep ? 0 : control.deltaT, step->stableStep(state));
+    std::unique_ptr<QuasiSteadySeepage> seepage;
+    if (scene.controls.pressureCoupling == SolutionControls::PressureCoupling::quasiSteady) {
+        seepage = std::make_unique<QuasiSteadySeepage>(scene);
+        seepage->update(state, *step, true);
+    }
     if (dryRun) {
         timeSteps(log, control, runTime, scene, state, *step);
         return 0;
@@ -87,6 +93,9 @@ int run(const std::filesystem::path& caseDirectory, bool dryRun, const std::stri
         const StableStep stable = step->stableStep(state);
         const double deltaT = runTime.advance(runTime.wantedDeltaT(stable.step));
         checkTimeStep(runTime, deltaT, stable);
+        if (seepage) {
+            seepage->update(state, *step, false);
+        }
         try {
             step->advance(state, deltaT);
         } catch (const InputError&) {
@@ -97,9 +106,12 @@ int run(const std::filesystem::path& caseDirectory, bool dryRun, const std::stri
         checkMotion(scene, state);
         stability.afterStep(scene, state, stable, runTime.writeTime() || !runTime.running());
         watch.afterStep(state, runTime);
-        output.afterStep(state, *step, deltaT / stable.step);
+        output.afterStep(state, *step, deltaT / stable.step, seepage.get());
         if (runTime.writeTime()) {
             step->rebuild(state);
+            if (seepage) {
+                seepage->update(state, *step, true);
+            }
             output.write(state, *step);
         }
     }
