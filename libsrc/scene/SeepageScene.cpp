@@ -1,5 +1,7 @@
 #include "scene/SeepageScene.h"
 
+#include "dictionary/Text.h"
+#include "mesh/CellLocator.h"
 #include "timeStepping/CellShapes.h"
 
 #include <cmath>
@@ -44,16 +46,113 @@ std::span<const Keyword> seepageKeywords()
         {"timeScheme", "word", "backwardEuler", "backwardEuler CrankNicolson", "of transient flow"},
         {"compressibleSkeleton", "flag", "yes", "",
          "whether the storage of transient flow holds the skeleton, 1/M, besides the liquid, n/Kw"},
+        {"penetration", "m", "-", "(0, inf)",
+         "of the first body, in place of that of the start time: the mesh follows it, and all below its "
+         "surfaceLevel is soil"},
         {"writeInterval", "integer", "1", "[1, 1000000]", "steps between two files for VTK"},
     };
     return table;
 }
 
-SeepageScene seepageScene(const Scene& scene, const State& state, bool compressibleSkeleton)
+std::vector<BodySurface> surfacesOfBodies(const Scene& scene, const State& state)
+{
+    BackgroundMesh reference = state.mesh;
+    if (!scene.referenceZ.empty()) {
+        reference.z = scene.referenceZ;
+    }
+    std::vector<BodySurface> surfaces;
+    InputProblems problems;
+    for (RigidBody body : state.bodies) {
+        if (!scene.referenceZ.empty()) {
+            body.tipLevel = body.initialTipLevel;
+        }
+        surfaces.push_back(findBodySurface(body, reference, problems));
+    }
+    problems.throwIfAny("the mesh and its bodies");
+    for (BodySurface& surface : surfaces) {
+        updateAreas(surface, state.mesh);
+    }
+    return surfaces;
+}
+
+void placeBody(const Scene& scene, State& state, double penetration)
+{
+    if (state.bodies.empty()) {
+        throw InputError("the seepage", {{{"system/seepageDict", 0},
+                                          "penetration is given, but there is no body",
+                                          "leave the key out, or add constant/bodies"}});
+    }
+    RigidBody& body = state.bodies.front();
+    body.tipLevel = body.surfaceLevel - penetration;
+    const double displacement = body.tipLevel - body.initialTipLevel;
+    const DisplacementRange range = scene.motion.allowedDisplacements();
+    if (scene.movingBody != 0 || displacement < range.lowest || displacement > range.highest) {
+        throw InputError(
+            "the seepage",
+            {{{"constant/dynamicMeshDict", 0},
+              text("the mesh cannot follow '%s' to a penetration of %.6g m", body.name.c_str(), penetration),
+              scene.movingBody != 0 ? text("type followBody; body %s;", body.name.c_str())
+                                    : text("it can from %.6g to %.6g m",
+                                           body.surfaceLevel - body.initialTipLevel - range.highest,
+                                           body.surfaceLevel - body.initialTipLevel - range.lowest)}});
+    }
+    scene.motion.place(state.mesh, scene.referenceZ, displacement);
+    const CellLocator locator(state.mesh);
+    for (std::size_t p = 0; p < state.points.size(); ++p) {
+        state.points.cell[p] = locator.find(state.points.r[p], state.points.z[p]);
+    }
+}
+
+namespace {
+
+/// Cells of soil without points are as permeable as those beside them.
+void fillFromNeighbours(const BackgroundMesh& mesh, std::vector<double>& values,
+                        const std::vector<unsigned char>& soil)
+{
+    for (bool missing = true; missing;) {
+        missing = false;
+        bool filled = false;
+        const std::vector<double> known = values;
+        for (int c = 0; c < mesh.cells(); ++c) {
+            if (!soil[c] || known[c] > 0) {
+                continue;
+            }
+            double sum = 0;
+            int count = 0;
+            for (int k = 0; k < mesh.corners; ++k) {
+                const int next = mesh.neighbour[c * mesh.corners + k];
+                if (next >= 0 && soil[next] && known[next] > 0) {
+                    sum += known[next];
+                    ++count;
+                }
+            }
+            filled = filled || count > 0;
+            missing = missing || count == 0;
+            values[c] = count > 0 ? sum / count : 0;
+        }
+        if (missing && !filled) {
+            throw InputError("the seepage",
+                             {{{},
+                               "a part of the soil below surfaceLevel holds no material points",
+                               "fill it, or leave penetration out of system/seepageDict"}});
+        }
+    }
+}
+
+} // namespace
+
+SeepageScene seepageScene(const Scene& scene, const State& state, bool compressibleSkeleton,
+                          std::optional<double> surfaceLevel)
 {
     const BackgroundMesh& mesh = state.mesh;
     const MaterialPoints& points = state.points;
     SeepageScene result;
+    std::vector<unsigned char> inside(mesh.cells(), 0);
+    for (const BodySurface& surface : surfacesOfBodies(scene, state)) {
+        for (int c = 0; c < mesh.cells(); ++c) {
+            inside[c] |= surface.voidCell[c];
+        }
+    }
     result.soil.assign(mesh.cells(), 0);
     result.conductivity.assign(mesh.cells(), 0);
     result.storage.assign(mesh.cells(), 0);
@@ -71,15 +170,23 @@ SeepageScene seepageScene(const Scene& scene, const State& state, bool compressi
         result.storage[c] += v * (n / material.liquidBulkModulus +
                                   (compressibleSkeleton ? 1 / material.law->pWaveModulus() : 0));
     }
-    std::vector<unsigned char> inside(mesh.cells(), 0);
-    InputProblems problems;
-    for (const RigidBody& body : state.bodies) {
-        const BodySurface surface = findBodySurface(body, mesh, problems);
-        for (int c = 0; c < mesh.cells(); ++c) {
-            inside[c] |= surface.voidCell[c];
+    for (int c = 0; c < mesh.cells(); ++c) {
+        if (volume[c] > 0) {
+            result.conductivity[c] /= volume[c];
+            result.storage[c] /= volume[c];
+        }
+        if (surfaceLevel) {
+            double centre = 0;
+            for (int k = 0; k < mesh.corners; ++k) {
+                centre += mesh.z[mesh.node(c, k)] / mesh.corners;
+            }
+            result.soil[c] = !inside[c] && centre < *surfaceLevel;
         }
     }
-    problems.throwIfAny("the mesh and its bodies");
+    if (surfaceLevel) {
+        fillFromNeighbours(mesh, result.conductivity, result.soil);
+        fillFromNeighbours(mesh, result.storage, result.soil);
+    }
 
     const double unitWeight = scene.materials.front().liquidDensity * scene.gravity[1];
     result.given.assign(mesh.nodes(), Seepage::free);
@@ -89,8 +196,6 @@ SeepageScene seepageScene(const Scene& scene, const State& state, bool compressi
     std::vector<unsigned char> soilNode(mesh.nodes(), 0);
     for (int c = 0; c < mesh.cells(); ++c) {
         if (result.soil[c]) {
-            result.conductivity[c] /= volume[c];
-            result.storage[c] /= volume[c];
             for (int k = 0; k < mesh.corners; ++k) {
                 soilNode[mesh.node(c, k)] = 1;
             }

@@ -209,7 +209,9 @@ TEST(Seepage, aCaissonHasTheFlowAndTipPressureOfIndependentSolutions)
 {
     // L/D, flow and tip factor for a wall of 1 % of the diameter, exit gradients for a thin one
     const double expected[][5] = {{0.2, 1.673, 0.3215, 0.506, 0.359},
+                                  {0.4, 1.130, 0.2441, 0.615, 0.572},
                                   {0.6, 0.8612, 0.1967, 0.690, 0.679},
+                                  {0.8, 0.6976, 0.1648, 0.742, 0.739},
                                   {1.0, 0.5869, 0.1418, 0.779, 0.779}};
     for (const auto& [depth, flow, tip, wall, axis] : expected) {
         const CaissonFlow got = caissonFlow(depth, 20);

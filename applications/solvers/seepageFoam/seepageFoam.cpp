@@ -2,8 +2,9 @@
 //
 // Usage: seepageFoam [-case <directory>] [-dry-run]
 //
-// Reads the case as axiMpmFoam does, with the body and the material points where the start time has them, and
-// system/seepageDict. Writes postProcessing/seepage/<start>/seepage.dat and VTK/seepage.
+// Reads the case as axiMpmFoam does, with the body (but for `penetration`) and the material points where the
+// start time has them, and system/seepageDict. Writes postProcessing/seepage/<start>/seepage.dat and
+// VTK/seepage.
 
 #include "case/FileIO.h"
 #include "case/Log.h"
@@ -20,6 +21,7 @@
 #include <cmath>
 #include <iostream>
 #include <numbers>
+#include <optional>
 
 namespace {
 
@@ -32,6 +34,7 @@ struct Controls
     double deltaT = 0, endTime = 0, theta = 1;
     bool compressibleSkeleton = true;
     int writeInterval = 1;
+    std::optional<double> penetration;
 };
 
 Controls readControls(const std::filesystem::path& caseDirectory, InputProblems& problems)
@@ -52,6 +55,9 @@ Controls readControls(const std::filesystem::path& caseDirectory, InputProblems&
             reader.problem(key, std::string("mode transient needs '") + key + "'");
         }
     }
+    if (reader.has("penetration")) {
+        controls.penetration = reader.number("penetration");
+    }
     controls.deltaT = reader.has("deltaT") ? reader.number("deltaT") : 0;
     controls.endTime = reader.has("endTime") ? reader.number("endTime") : 0;
     return controls;
@@ -66,7 +72,8 @@ struct Figures
 };
 
 Figures readOff(const Seepage& seepage, const SeepageScene& setup, const State& state,
-                const std::vector<double>& excess, double unitWeight)
+                const std::vector<BodySurface>& surfaces, const std::vector<double>& excess,
+                double unitWeight)
 {
     const BackgroundMesh& mesh = state.mesh;
     const double whole = mesh.geometry == Geometry::axisymmetric ? 2 * std::numbers::pi : 1.0;
@@ -102,10 +109,9 @@ Figures readOff(const Seepage& seepage, const SeepageScene& setup, const State& 
             figures.exitAtWall = exit;
         }
     }
-    InputProblems problems;
     double area = 0;
-    for (const RigidBody& body : state.bodies) {
-        for (const SurfaceNode& node : findBodySurface(body, mesh, problems).nodes) {
+    for (const BodySurface& surface : surfaces) {
+        for (const SurfaceNode& node : surface.nodes) {
             for (int f = 0; f < node.faces; ++f) {
                 if (node.part[f] == SurfacePart::tip) {
                     figures.tipExcess += node.area[f] * excess[node.node];
@@ -176,7 +182,15 @@ int run(const std::filesystem::path& caseDirectory, bool dryRun, const std::stri
     const double unitWeight = -scene.materials.front().liquidDensity * scene.gravity[1];
     const double whole = state.mesh.geometry == Geometry::axisymmetric ? 2 * std::numbers::pi : 1.0;
 
-    SeepageScene setup = seepageScene(scene, state, controls.compressibleSkeleton);
+    std::optional<double> surfaceLevel;
+    if (controls.penetration) {
+        placeBody(scene, state, *controls.penetration);
+        surfaceLevel = state.bodies.front().surfaceLevel;
+        log.line(
+            text("Body %s: penetration %.6g m", state.bodies.front().name.c_str(), *controls.penetration));
+    }
+    const std::vector<BodySurface> surfaces = surfacesOfBodies(scene, state);
+    SeepageScene setup = seepageScene(scene, state, controls.compressibleSkeleton, surfaceLevel);
     Seepage seepage(state.mesh, setup.soil, setup.conductivity, setup.storage);
     log.line(text("Seepage: %zu nodes, %td cells of soil", seepage.nodes().size(),
                   std::ranges::count(setup.soil, 1)));
@@ -193,7 +207,7 @@ int run(const std::filesystem::path& caseDirectory, bool dryRun, const std::stri
                      {"exitGradientAtAxis", "-"},
                      {"exitGradientAtWall", "-"}});
     const auto report = [&](const std::vector<double>& excess, bool write) {
-        const Figures figures = readOff(seepage, setup, state, excess, unitWeight);
+        const Figures figures = readOff(seepage, setup, state, surfaces, excess, unitWeight);
         const double values[] = {figures.plugFlow,  figures.seabedFlow, figures.patchFlow,
                                  figures.tipExcess, figures.exitAtAxis, figures.exitAtWall};
         monitor.record(state.time, values);
@@ -220,7 +234,7 @@ int run(const std::filesystem::path& caseDirectory, bool dryRun, const std::stri
         const long steps = std::lround((controls.endTime - state.time) / controls.deltaT);
         for (long i = 1; i <= steps; ++i) {
             state.time += controls.deltaT;
-            const SeepageScene now = seepageScene(scene, state, controls.compressibleSkeleton);
+            const SeepageScene now = seepageScene(scene, state, controls.compressibleSkeleton, surfaceLevel);
             setup.given = now.given;
             setup.inflow = now.inflow;
             excess = seepage.advance(excess, controls.deltaT, controls.theta, setup.given, setup.inflow);
