@@ -114,9 +114,6 @@ Outcome drive(Simulation& simulation, const Soil& soil, long steps, double coura
                 }
             }
         }
-        if (demands.duringSteps) {
-            demands.duringSteps(simulation);
-        }
     }
     if (demands.energyGrowth > 0 && growth > demands.energyGrowth) {
         return {Verdict::breaks, text("kinetic energy has grown by %.3g, unnoticed", growth)};
@@ -126,7 +123,7 @@ Outcome drive(Simulation& simulation, const Soil& soil, long steps, double coura
             return {Verdict::breaks, demand};
         }
     }
-    return {};
+    return {Verdict::holds, demands.figures ? demands.figures(simulation) : ""};
 }
 
 Outcome outcomeOf(const std::function<Outcome()>& run)

@@ -28,7 +28,7 @@ struct Demands
 {
     double energyGrowth = 0; ///< most kinetic energy over that at the start; 0: any
     std::function<std::string(const Simulation&)> atTheEnd; ///< empty where it is content
-    std::function<void(Simulation&)> duringSteps;           ///< after every step, to look or to disturb
+    std::function<std::string(const Simulation&)> figures;  ///< for the remark of a run that holds
 };
 
 /// Makes steps of `courant` times the stable one, as axiMpmFoam does, with its watch.

@@ -22,7 +22,7 @@ std::vector<Limit> limitScenes();
 /// Whether small noise grows at this share of the estimate.
 bool grows(const Block& block, double share, long steps);
 
-/// Finds the truth to within two per cent.
+/// Finds the truth to within half a per cent.
 void findLimit(Limit& limit);
 
 } // namespace caisson::stability

@@ -123,12 +123,12 @@ Outcome freeFall(bool triangles, double share)
                        simulation.state.step, error, stress));
 }
 
-Outcome revolutions(bool triangles, double share)
+Outcome revolutions(bool triangles, int cells, double share)
 {
     const Soil soil;
     const Kernel kernel{1, triangles, Geometry::planeStrain};
     const double speed = 0.01 * std::sqrt(72e6 / 2072.5);
-    Simulation simulation = turningDisk(kernel, soil, speed);
+    Simulation simulation = turningDisk(kernel, soil, speed, cells);
     simulation.start();
     const MaterialPoints& points = simulation.state.points;
     const auto angular = [&] {
@@ -306,8 +306,10 @@ std::vector<LongRun> longRuns()
                        [=](double share) { return millionSteps(triangles, share); }});
         all.push_back({"free fall through 100 graded cells" + shape(triangles),
                        [=](double share) { return freeFall(triangles, share); }});
-        all.push_back({"ten revolutions" + shape(triangles),
-                       [=](double share) { return revolutions(triangles, share); }});
+        for (const int cells : {4, 8, 16}) {
+            all.push_back({text("ten revolutions of a disk of %d cells", 2 * cells) + shape(triangles),
+                           [=](double share) { return revolutions(triangles, cells, share); }});
+        }
         for (const int phases : {1, 2}) {
             all.push_back({"thrown at the axis" + phase(phases) + shape(triangles),
                            [=](double share) { return thrownAtTheAxis(phases, triangles, share); }});

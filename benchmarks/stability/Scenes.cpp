@@ -147,6 +147,30 @@ double kineticEnergy(const Simulation& simulation)
     return sum;
 }
 
+double angularMomentum(const Simulation& simulation)
+{
+    const MaterialPoints& points = simulation.state.points;
+    double sum = 0;
+    for (std::size_t p = 0; p < points.size(); ++p) {
+        sum += points.mass[p] *
+               ((points.r[p] - diskCentre) * points.vz[p] - (points.z[p] - diskCentre) * points.vr[p]);
+    }
+    return sum;
+}
+
+/// Largest change of a point's distance from the centre of its disk [m].
+double offCircle(const Simulation& simulation)
+{
+    const MaterialPoints& points = simulation.state.points;
+    double largest = 0;
+    for (std::size_t p = 0; p < points.size(); ++p) {
+        const double now = std::hypot(points.r[p] - diskCentre, points.z[p] - diskCentre);
+        const double then = std::hypot(points.initialR[p] - diskCentre, points.initialZ[p] - diskCentre);
+        largest = std::max(largest, std::abs(now - then));
+    }
+    return largest;
+}
+
 void findCells(Simulation& simulation)
 {
     const CellLocator locator(simulation.state.mesh);
@@ -252,12 +276,12 @@ Simulation make(const Column& column)
     return simulation;
 }
 
-Simulation turningDisk(const Kernel& kernel, const Soil& soil, double rimSpeed)
+Simulation turningDisk(const Kernel& kernel, const Soil& soil, double rimSpeed, int cells)
 {
-    constexpr double radius = 0.4, centre = 0.6;
+    constexpr double radius = diskRadius, centre = diskCentre;
+    const std::vector<double> lines = evenLines(0, 2 * centre, 3 * cells);
     Simulation simulation;
-    simulation.state.mesh = structuredMesh(evenLines(0, 2 * centre, 12), evenLines(0, 2 * centre, 12),
-                                           Geometry::planeStrain, kernel.triangles);
+    simulation.state.mesh = structuredMesh(lines, lines, Geometry::planeStrain, kernel.triangles);
     const int material = simulation.addMaterial("disk", soil.dictionary());
     setControls(simulation, kernel);
     const std::string free = "{ type zeroGradient; } ";

@@ -74,14 +74,23 @@ struct Column
 };
 Simulation make(const Column& column);
 
-/// A free disk in plane strain, of radius 0.4 m on cells of 0.1 m, that turns with a given speed of its rim.
-Simulation turningDisk(const Kernel& kernel, const Soil& soil, double rimSpeed);
+inline constexpr double diskRadius = 0.4, diskCentre = 0.6; ///< [m], of r and z alike
+
+/// A free disk in plane strain, on cells of a quarter of its radius, that turns with a given speed of its
+/// rim.
+Simulation turningDisk(const Kernel& kernel, const Soil& soil, double rimSpeed, int cells);
 
 /// Fastest wave as the kernels see it: of the limiting cell of an unscaled scene.
 double waveSpeed(const Simulation& simulation);
 
 /// Kinetic energy of solid and liquid, with their own velocities [J/rad or J/m].
 double kineticEnergy(const Simulation& simulation);
+
+/// Of a turning disk about its centre [N m s/m].
+double angularMomentum(const Simulation& simulation);
+
+/// Largest change of a point's distance from the centre of its disk [m].
+double offCircle(const Simulation& simulation);
 
 /// Places in the cells found anew, after points have been put elsewhere.
 void findCells(Simulation& simulation);

@@ -57,6 +57,7 @@ int printLimits()
 int printLongRuns(double share)
 {
     int failures = 0;
+    std::setvbuf(stdout, nullptr, _IOLBF, 0);
     std::puts("run\tverdict\tseconds\tfigures");
     for (const LongRun& run : longRuns()) {
         const double start = processorSeconds();
