@@ -198,8 +198,9 @@ Simulation make(const Block& block)
     if (kernel.phases == 2 && block.emptyRows > 0) {
         addFreeSurface(simulation, height);
     }
-    const double holeR = (block.columns / 2 + 0.5) * block.cellWidth;
-    const double holeZ = (block.rows / 2 + 0.5) * block.cellHeight;
+    const int holeColumn = block.columns / 2, holeRow = block.rows / 2;
+    const double holeR = (holeColumn + 0.5) * block.cellWidth;
+    const double holeZ = (holeRow + 0.5) * block.cellHeight;
     simulation.fill(material, kernel.triangles ? (block.pointsPerSide == 1 ? 1 : 3) : block.pointsPerSide,
                     block.pointsPerSide, [&](double r, double z) {
                         const bool inHole = block.hole && std::abs(r - holeR) < 0.5 * block.cellWidth &&
