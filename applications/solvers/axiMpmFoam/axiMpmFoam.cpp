@@ -7,13 +7,12 @@
 #include "RunOutput.h"
 #include "case/FileIO.h"
 #include "case/Log.h"
+#include "case/Program.h"
 #include "case/RunTime.h"
 #include "dictionary/Text.h"
 #include "scene/CaseScene.h"
 #include "scene/QuasiSteadySeepage.h"
 #include "scene/StabilityWatch.h"
-
-#include <boost/program_options.hpp>
 
 #include <cmath>
 #include <iostream>
@@ -21,8 +20,6 @@
 namespace {
 
 using namespace caisson;
-namespace options = boost::program_options;
-
 /// Fixed steps are refused where they are longer than the stable one.
 void checkTimeStep(const RunTime& runTime, double deltaT, const StableStep& stable)
 {
@@ -124,41 +121,16 @@ int run(const std::filesystem::path& caseDirectory, bool dryRun, const std::stri
 
 int main(int argc, char* argv[])
 {
-    options::options_description visible("Options");
-    visible.add_options()("case", options::value<std::string>()->default_value("."), "the case directory")(
-        "dry-run", "read and check everything, print the plan, time a few steps, write nothing")(
-        "help", "print this and exit")("version", "print the version and exit");
-    try {
-        namespace style = options::command_line_style;
-        options::variables_map given;
-        options::store(options::command_line_parser(argc, argv)
-                           .options(visible)
-                           .style((style::unix_style | style::allow_long_disguise) & ~style::allow_guessing)
-                           .run(),
-                       given);
-        if (given.contains("help")) {
-            std::cout
-                << "Usage: axiMpmFoam [-case DIR] [-dry-run]\n\n"
-                   "Runs a case of the material point method: axisymmetric or plane strain, one-phase soil,\n"
-                   "rigid bodies with frictional contact. Cases are OpenFOAM-style directories.\n\n"
-                << visible;
-            return 0;
-        }
-        if (given.contains("version")) {
-            std::cout << "axiMpmFoam " << buildVersion() << '\n';
-            return 0;
-        }
-        std::string commandLine = "axiMpmFoam";
-        for (int i = 1; i < argc; ++i) {
-            commandLine += std::string(" ") + argv[i];
-        }
+    namespace options = boost::program_options;
+    Program program{
+        "axiMpmFoam", "[-case DIR] [-dry-run]",
+        "Runs a case of the material point method: axisymmetric or plane strain, soil of one or two phases,\n"
+        "rigid bodies with frictional contact. Cases are OpenFOAM-style directories."};
+    program.options.add_options()("case", options::value<std::string>()->default_value("."),
+                                  "the case directory")(
+        "dry-run", "read and check everything, print the plan, time a few steps, write nothing");
+    program.run = [](const options::variables_map& given, const std::string& commandLine) {
         return run(given["case"].as<std::string>(), given.contains("dry-run"), commandLine);
-    } catch (const InputError& error) {
-        std::cerr << error.what() << std::flush;
-    } catch (const options::error& error) {
-        std::cerr << "--> CAISSONFOAM FATAL ERROR : " << error.what() << "\n    see axiMpmFoam -help\n";
-    } catch (const std::exception& error) {
-        std::cerr << "--> CAISSONFOAM FATAL ERROR : " << error.what() << '\n';
-    }
-    return 1;
+    };
+    return runProgram(std::move(program), argc, argv);
 }

@@ -9,13 +9,12 @@
 #include "case/FileIO.h"
 #include "case/Log.h"
 #include "case/Monitor.h"
+#include "case/Program.h"
 #include "case/RunTime.h"
 #include "dictionary/Text.h"
 #include "output/Vtk.h"
 #include "scene/CaseScene.h"
 #include "scene/SeepageScene.h"
-
-#include <boost/program_options.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -26,8 +25,6 @@
 namespace {
 
 using namespace caisson;
-namespace options = boost::program_options;
-
 struct Controls
 {
     bool transient = false;
@@ -249,37 +246,16 @@ int run(const std::filesystem::path& caseDirectory, bool dryRun, const std::stri
 
 int main(int argc, char* argv[])
 {
-    options::options_description visible("Options");
-    visible.add_options()("case", options::value<std::string>()->default_value("."), "the case directory")(
-        "dry-run", "read and check everything, write nothing")("help", "print this and exit");
-    try {
-        namespace style = options::command_line_style;
-        options::variables_map given;
-        options::store(options::command_line_parser(argc, argv)
-                           .options(visible)
-                           .style((style::unix_style | style::allow_long_disguise) & ~style::allow_guessing)
-                           .positional({})
-                           .run(),
-                       given);
-        if (given.contains("help")) {
-            std::cout << "Usage: seepageFoam [-case DIR] [-dry-run]\n\n"
-                         "Steady or transient seepage through the soil of a two-phase case, round its body "
-                         "where the\n"
-                         "start time has it, by finite elements on the mesh.\n\n"
-                      << visible;
-            return 0;
-        }
-        std::string commandLine = "seepageFoam";
-        for (int i = 1; i < argc; ++i) {
-            commandLine += std::string(" ") + argv[i];
-        }
+    namespace options = boost::program_options;
+    Program program{"seepageFoam", "[-case DIR] [-dry-run]",
+                    "Steady or transient seepage through the soil of a two-phase case, by finite elements on "
+                    "the mesh, round\n"
+                    "its body where the start time, or system/seepageDict, has it."};
+    program.options.add_options()("case", options::value<std::string>()->default_value("."),
+                                  "the case directory")("dry-run",
+                                                        "read and check everything, write nothing");
+    program.run = [](const options::variables_map& given, const std::string& commandLine) {
         return run(given["case"].as<std::string>(), given.contains("dry-run"), commandLine);
-    } catch (const InputError& error) {
-        std::cerr << error.what() << std::flush;
-    } catch (const options::error& error) {
-        std::cerr << "--> CAISSONFOAM FATAL ERROR : " << error.what() << "\n    see seepageFoam -help\n";
-    } catch (const std::exception& error) {
-        std::cerr << "--> CAISSONFOAM FATAL ERROR : " << error.what() << '\n';
-    }
-    return 1;
+    };
+    return runProgram(std::move(program), argc, argv);
 }

@@ -6,13 +6,12 @@
 #include "bodies/FreeSurface.h"
 #include "boundary/LiquidConditions.h"
 #include "case/FileIO.h"
+#include "case/Program.h"
 #include "installation/InstallationInput.h"
 #include "mesh/MeshMotion.h"
 #include "scene/CaseScene.h"
 #include "scene/SeepageScene.h"
 #include "scene/SolutionDict.h"
-
-#include <boost/program_options.hpp>
 
 #include <algorithm>
 #include <iostream>
@@ -125,32 +124,16 @@ int check(const std::filesystem::path& file)
 int main(int argc, char* argv[])
 {
     namespace options = boost::program_options;
-    options::options_description visible("Options");
-    visible.add_options()("check", options::value<std::string>(),
-                          "compare the tables with those of a file; status 1 where they differ")(
-        "help", "print this and exit");
-    try {
-        namespace style = options::command_line_style;
-        options::variables_map given;
-        options::store(options::command_line_parser(argc, argv)
-                           .options(visible)
-                           .positional({})
-                           .style((style::unix_style | style::allow_long_disguise) & ~style::allow_guessing)
-                           .run(),
-                       given);
-        if (given.contains("help")) {
-            std::cout << "Usage: caissonKeywords [-check FILE]\n\n"
-                         "Prints the keywords of all dictionaries as Markdown.\n\n"
-                      << visible;
-            return 0;
-        }
+    Program program{"caissonKeywords", "[-check FILE]",
+                    "Prints the keywords of all dictionaries as Markdown."};
+    program.options.add_options()("check", options::value<std::string>(),
+                                  "compare the tables with those of a file; status 1 where they differ");
+    program.run = [](const options::variables_map& given, const std::string&) {
         if (given.contains("check")) {
             return check(given["check"].as<std::string>());
         }
         std::cout << allTables();
         return 0;
-    } catch (const std::exception& error) {
-        std::cerr << "--> CAISSONFOAM FATAL ERROR : " << error.what() << "\n    see caissonKeywords -help\n";
-    }
-    return 1;
+    };
+    return runProgram(std::move(program), argc, argv);
 }

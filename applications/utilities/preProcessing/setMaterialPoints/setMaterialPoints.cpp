@@ -8,11 +8,10 @@
 
 #include "SeedInput.h"
 #include "case/FoamFile.h"
+#include "case/Program.h"
 #include "dictionary/Text.h"
 #include "materialPoints/CloudConversion.h"
 #include "scene/CaseScene.h"
-
-#include <boost/program_options.hpp>
 
 #include <algorithm>
 #include <iostream>
@@ -134,38 +133,18 @@ void run(const fs::path& caseDirectory, const fs::path& dictionaryFile, bool dry
 
 } // namespace
 
-int main(int argc, char** argv)
+int main(int argc, char* argv[])
 {
-    namespace po = boost::program_options;
-    po::options_description options("Options");
-    options.add_options()("case", po::value<std::string>()->default_value("."), "case directory")(
-        "dict", po::value<std::string>()->default_value("system/setMaterialPointsDict"),
-        "dictionary, relative to the case")("dry-run", "read, check and report, but write nothing")(
-        "help", "print this and exit");
-    try {
-        using namespace po::command_line_style;
-        po::variables_map values;
-        po::store(po::command_line_parser(argc, argv)
-                      .options(options)
-                      .style((unix_style & ~allow_guessing) | allow_long_disguise)
-                      .positional({})
-                      .run(),
-                  values);
-        if (values.contains("help")) {
-            std::cout << "Usage: setMaterialPoints [-case DIR] [-dict FILE] [-dry-run]\n\n"
-                         "Fills the mesh with material points and sets their initial stress.\n\n"
-                      << options;
-            return 0;
-        }
-        run(values["case"].as<std::string>(), values["dict"].as<std::string>(), values.contains("dry-run"));
+    namespace options = boost::program_options;
+    Program program{"setMaterialPoints", "[-case DIR] [-dict FILE] [-dry-run]",
+                    "Fills the mesh with material points and sets their initial stress."};
+    program.options.add_options()("case", options::value<std::string>()->default_value("."),
+                                  "the case directory")(
+        "dict", options::value<std::string>()->default_value("system/setMaterialPointsDict"),
+        "dictionary, relative to the case")("dry-run", "read, check and report, but write nothing");
+    program.run = [](const options::variables_map& given, const std::string&) {
+        run(given["case"].as<std::string>(), given["dict"].as<std::string>(), given.contains("dry-run"));
         return 0;
-    } catch (const InputError& error) {
-        std::cerr << error.what() << std::flush;
-    } catch (const po::error& error) {
-        std::cerr << "--> CAISSONFOAM FATAL ERROR : " << error.what()
-                  << "\n    see setMaterialPoints -help\n";
-    } catch (const std::exception& error) {
-        std::cerr << "--> CAISSONFOAM FATAL ERROR : " << error.what() << '\n';
-    }
-    return 1;
+    };
+    return runProgram(std::move(program), argc, argv);
 }

@@ -9,9 +9,8 @@
 // the force.
 
 #include "case/FileIO.h"
+#include "case/Program.h"
 #include "installation/InstallationTables.h"
-
-#include <boost/program_options.hpp>
 
 #include <cmath>
 #include <cstdio>
@@ -159,33 +158,17 @@ int run(const fs::path& caseDirectory, const fs::path& dictionaryFile)
 
 } // namespace
 
-int main(int argc, char** argv)
+int main(int argc, char* argv[])
 {
-    namespace po = boost::program_options;
-    po::options_description options(
-        "suctionPressure: suction and resistance of a caisson against penetration\n\n"
-        "Options");
-    options.add_options()("case", po::value<std::string>()->default_value("."), "case directory")(
-        "dict", po::value<std::string>()->default_value("system/suctionPressureDict"),
-        "dictionary, relative to the case")("help", "this text");
-    try {
-        using namespace po::command_line_style;
-        po::variables_map values;
-        po::store(po::command_line_parser(argc, argv)
-                      .options(options)
-                      .style((unix_style & ~allow_guessing) | allow_long_disguise)
-                      .positional({})
-                      .run(),
-                  values);
-        if (values.count("help") > 0) {
-            std::cout << options;
-            return 0;
-        }
-        return run(values["case"].as<std::string>(), values["dict"].as<std::string>());
-    } catch (const po::error& error) {
-        std::cerr << "--> CAISSONFOAM FATAL ERROR : " << error.what() << "\n" << options;
-    } catch (const std::exception& error) {
-        std::cerr << error.what() << '\n';
-    }
-    return 1;
+    namespace options = boost::program_options;
+    Program program{"suctionPressure", "[-case DIR] [-dict FILE]",
+                    "Suction and resistance of a caisson against penetration, by closed-form methods."};
+    program.options.add_options()("case", options::value<std::string>()->default_value("."),
+                                  "the case directory")(
+        "dict", options::value<std::string>()->default_value("system/suctionPressureDict"),
+        "dictionary, relative to the case");
+    program.run = [](const options::variables_map& given, const std::string&) {
+        return run(given["case"].as<std::string>(), given["dict"].as<std::string>());
+    };
+    return runProgram(std::move(program), argc, argv);
 }
