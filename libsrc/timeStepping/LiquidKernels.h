@@ -457,6 +457,8 @@ void ExplicitStep<Shape, phases>::meanPressures(const State& state, std::vector<
 template <class Shape, int phases>
 void ExplicitStep<Shape, phases>::filterPressures(State& state)
 {
+    // Steps that mass scaling makes longer are fewer: as much is removed per time.
+    const double share = 1 - std::pow(1 - scene_.controls.checkerboardFilter, std::sqrt(state.massScaling));
     meanPressures(state, cellPressure_);
     for (int pass = 0; pass < 2; ++pass) {
         averageOverNodes(cellPressure_, cellAverage_);
@@ -470,7 +472,7 @@ void ExplicitStep<Shape, phases>::filterPressures(State& state)
         if (open) {
             return;
         }
-        const double change = scene_.controls.checkerboardFilter * cellPressure_[c];
+        const double change = share * cellPressure_[c];
         for (const int* i = pointCells_.begin(c); i != pointCells_.end(c); ++i) {
             state.points.porePressure[*i] -= change;
         }
