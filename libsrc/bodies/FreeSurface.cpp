@@ -16,9 +16,13 @@ constexpr Keyword keywords[] = {
     {"pumpFlow", "Function1", "-", "",
      "water that a pump takes out of the closed void of region inside [m3/s], of time: the suction is then a "
      "result"},
+    {"seepageFlow", "Function1", "-", "",
+     "seepage that leaves the soil through a covered surface [m3/s], of time; 0: impermeable"},
     {"compliance", "m3/Pa", "1e-8", "(0, inf)",
-     "volume of water that a change of pressure takes up in the void, for pumpFlow; 1e-8 is 20 m3 of water"},
-    {"sealedFrom", "s", "0", "[0, inf)", "time until which the void is open, for pumpFlow"},
+     "volume of water that a change of pressure takes up in the void or below the cover, for pumpFlow and "
+     "seepageFlow; 1e-8 is 20 m3 of water"},
+    {"sealedFrom", "s", "0", "[0, inf)",
+     "time until which the surface is open, for pumpFlow and seepageFlow"},
     {"variable", "word", "time", "time penetration",
      "what pressure or suction is a function of [s or m]; penetration is that of the body"},
 };
@@ -120,6 +124,13 @@ std::vector<FreeSurface> readFreeSurfaces(const Dictionary& freeSurfaces,
             if (surface.region != FreeSurface::Region::inside) {
                 reader.problem("pumpFlow", "free surface '" + surface.name + "' is not that of a closed void",
                                "region inside; body caisson;");
+            }
+        }
+        if (reader.has("seepageFlow")) {
+            surface.seepageFlow = readFunction1(*entry.dictionary, "seepageFlow", problems);
+            if (surface.pumpFlow) {
+                reader.problem("seepageFlow", "free surface '" + surface.name + "' has two flows",
+                               "pumpFlow for a closed void, seepageFlow for a covered surface: keep one");
             }
         }
         surface.compliance = reader.number("compliance");

@@ -25,8 +25,12 @@ struct FreeSurface
     /// A pump that takes water out of a closed void [m3/s or m2/s, whole body of revolution], of time; the
     /// pressure follows from what the soil and the body leave of the void: compliance dp/dt = inflow - flow.
     std::shared_ptr<const Function1> pumpFlow;
+    /// Seepage that leaves the soil through a covered surface [m3/s or m2/s, likewise], of time; 0 is
+    /// impermeable. Water of one pressure stands below the cover: compliance dp/dt = seepage - seepageFlow.
+    std::shared_ptr<const Function1> seepageFlow;
+    [[nodiscard]] bool givesFlow() const { return pumpFlow || seepageFlow; }
     double compliance = 0;              ///< volume of water that a pressure takes up [m3/Pa or m2/Pa]
-    double sealedFrom = 0;              ///< time until which the void is open [s]
+    double sealedFrom = 0;              ///< time until which a given flow is not yet one [s]
     Variable variable = Variable::time; ///< of `pressure` [s], or penetration of `body` [m]
 };
 

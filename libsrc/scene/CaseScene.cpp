@@ -353,9 +353,9 @@ CaseScene readCaseScene(const std::filesystem::path& caseDirectory, const std::f
     }
 
     for (const FreeSurface& surface : scene.freeSurfaces) {
-        if (seepage && surface.pumpFlow) {
+        if (seepage && surface.givesFlow()) {
             problems.add({"0/p", 0},
-                         "free surface '" + surface.name + "' has a pump, but seepage is quasi-steady",
+                         "free surface '" + surface.name + "' has a flow, but seepage is quasi-steady",
                          "give its pressure or suction; or phases 2");
         }
     }

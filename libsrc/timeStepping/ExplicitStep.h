@@ -215,7 +215,7 @@ private:
     std::vector<LiquidProperties> liquid_;         ///< per material
     std::vector<int> freeSurface_;                 ///< per cell: the free surface that its void would be of
     std::vector<int> voidCells_;                   ///< empty cells with active nodes
-    bool pumped_ = false;                          ///< a free surface has a pump
+    bool pumped_ = false;                          ///< a free surface has a given flow
     std::vector<std::array<double, 2>> voidForce_; ///< per corner, of a unit pressure in the void; with pumps
     std::vector<double> givenPressure_;            ///< per node: excess pressure of a boundary, or NaN
     std::vector<double> pressureShape_;            ///< per point: pressure interpolated from the nodes

@@ -171,7 +171,7 @@ ExplicitStep<Shape, phases>::ExplicitStep(const Scene& scene, State& state)
         cellLiquidRate_.assign(cells, 0);
         pressureShape_.resize(state.points.size());
         for (const FreeSurface& surface : scene.freeSurfaces) {
-            pumped_ = pumped_ || surface.pumpFlow;
+            pumped_ = pumped_ || surface.givesFlow();
         }
         if (pumped_) {
             voidForce_.resize(cells * corners);

@@ -184,24 +184,26 @@ void ExplicitStep<Shape, phases>::mapVoidToNodes(int c)
     }
 }
 
-/// Balance of the water in closed voids. What soil and water push into a void is minus the power of a unit
-/// pressure in it: the same integral as its force.
+/// Balance of the water in closed voids and below covers. What soil and water (a cover moves with the soil:
+/// the seepage alone) push into it is minus the power of a unit pressure: the same integral as its force.
 template <class Shape, int phases>
 void ExplicitStep<Shape, phases>::pump(State& state, double dt)
 {
     const double whole = axisymmetric ? 2 * std::numbers::pi : 1.0;
     for (std::size_t s = 0; s < scene_.freeSurfaces.size(); ++s) {
         const FreeSurface& surface = scene_.freeSurfaces[s];
-        if (!surface.pumpFlow || state.time < surface.sealedFrom) {
+        if (!surface.givesFlow() || state.time < surface.sealedFrom) {
             continue;
         }
+        const Function1& given = surface.pumpFlow ? *surface.pumpFlow : *surface.seepageFlow;
+        const double voidMoves = surface.pumpFlow ? 1 : 0;
         double inflow = 0;
         const auto add = [&](int c) {
             for (int k = 0; k < corners && freeSurface_[c] == static_cast<int>(s); ++k) {
                 const int i = cellNodes_[c * corners + k];
                 const double n = liquidNodes_[i].porosity;
-                const double r = nodes_[i].vr + n * liquidNodes_[i].relativeVr;
-                const double z = nodes_[i].vz + n * liquidNodes_[i].relativeVz;
+                const double r = voidMoves * nodes_[i].vr + n * liquidNodes_[i].relativeVr;
+                const double z = voidMoves * nodes_[i].vz + n * liquidNodes_[i].relativeVz;
                 const auto& force = voidForce_[c * corners + k];
                 inflow -= whole * (force[0] * r + force[1] * z);
             }
@@ -215,11 +217,11 @@ void ExplicitStep<Shape, phases>::pump(State& state, double dt)
             add(c);
         }
         for (const RigidBody& body : state.bodies) {
-            if (body.name == surface.body) {
+            if (surface.pumpFlow && body.name == surface.body) {
                 inflow -= body.velocity * body.enclosedArea(axisymmetric);
             }
         }
-        state.pumped[s] += dt * (inflow - surface.pumpFlow->value(state.time)) / surface.compliance;
+        state.pumped[s] += dt * (inflow - given.value(state.time)) / surface.compliance;
     }
 }
 

@@ -424,6 +424,46 @@ TEST(FreeSurface, aSuctionReachesTheWholeColumn)
     EXPECT_LT(largest, 20);
 }
 
+/// Below an impermeable surface the pressure of the base comes to stand in the whole column; what is fed in
+/// through the surface is stored.
+TEST(FreeSurface, aCoverLetsThroughTheFlowThatIsGiven)
+{
+    for (const double flow : {0.0, -1e-6}) { // [m3/s] out of the soil, whole column of revolution
+        Simulation simulation = columnUnderWater(1);
+        FreeSurface& surface = simulation.scene.freeSurfaces[0];
+        surface.seepageFlow = constantFunction1(flow);
+        surface.compliance = 1e-12;
+        if (flow == 0) {
+            simulation.setPressures("right { type impermeable; } top { type impermeable; } "
+                                    "bottom { type hydrostatic; level 1; pressure 1e3; }");
+        }
+        simulation.scene.controls.localDamping = 0.3;
+        const MaterialPoints& points = simulation.state.points;
+        const std::vector<double> volumes = points.volume;
+        const std::vector<double> pressures = points.porePressure;
+        simulation.start();
+        simulation.run(flow == 0 ? 10 : 2, 0.8);
+        if (flow == 0) {
+            double largest = 0;
+            for (std::size_t p = 0; p < points.size(); ++p) {
+                const double exact = liquidDensity * g * (1 - points.initialZ[p]) + 1e3;
+                largest = std::max(largest, std::abs(points.porePressure[p] - exact));
+            }
+            report("impermeable surface: largest difference of pressure [Pa]", largest, 10);
+            EXPECT_LT(largest, 10);
+            EXPECT_NEAR(simulation.state.pumped[0], 1e3, 10);
+            continue;
+        }
+        double stored = 0;
+        for (std::size_t p = 0; p < points.size(); ++p) {
+            stored += points.volume[p] - volumes[p] +
+                      porosity * volumes[p] * (points.porePressure[p] - pressures[p]) / 2e7;
+        }
+        report("covered surface: stored/inflow - 1", 2 * M_PI * stored / (-flow * 2) - 1, 1e-2);
+        EXPECT_NEAR(2 * M_PI * stored / (-flow * 2), 1, 1e-2);
+    }
+}
+
 TEST(Pressure, aCheckerboardIsRemoved)
 {
     for (const bool triangles : {false, true}) {
