@@ -174,7 +174,12 @@ Outcome cycles(int phases, bool plastic, double share)
     simulation.setStress([](double, double) { return std::array<double, 4>{-1e2, -1e2, -1e2, 0}; });
     simulation.scene.controls.linearBulkViscosity = 0.06;
     simulation.start();
-    const double step = courant * simulation.step->stableStep(simulation.state).step;
+    const auto driveTo =
+        [&](double time) { // not a number of steps per cycle: the load would get out of phase
+            const double step = courant * simulation.step->stableStep(simulation.state).step;
+            return drive(simulation, column.soil, std::lround((time - simulation.state.time) / step),
+                         courant);
+        };
     const MaterialPoints& points = simulation.state.points;
     const auto top = [&] {
         double result = 0;
@@ -185,12 +190,11 @@ Outcome cycles(int phases, bool plastic, double share)
     };
     Outcome outcome;
     double tenth = 0, deepest = 0;
-    const long perCycle = std::lround(period / step);
     for (int i = 0; i < count && outcome.verdict == Verdict::holds; ++i) {
-        outcome = drive(simulation, column.soil, perCycle / 2, courant);
+        outcome = driveTo((i + 0.5) * period);
         deepest = std::min(deepest, top());
         if (outcome.verdict == Verdict::holds) {
-            outcome = drive(simulation, column.soil, perCycle - perCycle / 2, courant);
+            outcome = driveTo((i + 1) * period);
         }
         tenth = i + 1 == std::max(1, count / 10) ? top() : tenth;
     }
