@@ -86,7 +86,8 @@ struct Rectangle
         return {2 * (r - cell.r0) * cell.invDr - 1, 2 * (z - cell.z0) * cell.invDz - 1};
     }
 
-    static void evaluate(const Cell& cell, double r, double z, Values<4>& values)
+    /// @returns the local coordinates
+    static std::array<double, 2> evaluate(const Cell& cell, double r, double z, Values<4>& values)
     {
         const double x = (r - cell.r0) * cell.invDr;
         const double y = (z - cell.z0) * cell.invDz;
@@ -108,6 +109,7 @@ struct Rectangle
         values.dz[1] = -right;
         values.dz[2] = right;
         values.dz[3] = left;
+        return {2 * x - 1, 2 * y - 1};
     }
 
     static MeanDilatation<4> meanDilatation(const Cell& c)
@@ -183,16 +185,20 @@ struct Rectangle
     static double size(const Cell& c) { return quadrilateralStep * std::min(c.dr, c.dz); }
 };
 
-/// General convex quadrilateral, corners counter-clockwise, bilinear map. Integrals by 2 x 2 Gauss points.
+/// General convex quadrilateral, corners counter-clockwise, bilinear map. Integrals by 2 x 2 Gauss points,
+/// which are exact for all of them but those of N and of the hoop strain times a local coordinate.
 template <bool axisymmetric>
 struct Quadrilateral
 {
     static constexpr int corners = 4;
     static constexpr bool isAxisymmetric = axisymmetric;
 
+    /// A place is centre + a xi + b eta + c xi eta.
     struct Cell
     {
         double r[4], z[4];
+        double centreR, centreZ, ar, az, br, bz, cr, cz;
+        Moments<4> moments;
     };
 
     static Cell make(const double* r, const double* z)
@@ -200,7 +206,22 @@ struct Quadrilateral
         Cell cell;
         std::copy_n(r, 4, cell.r);
         std::copy_n(z, 4, cell.z);
+        cell.centreR = 0.25 * (r[0] + r[1] + r[2] + r[3]);
+        cell.centreZ = 0.25 * (z[0] + z[1] + z[2] + z[3]);
+        cell.ar = 0.25 * (r[1] + r[2] - r[0] - r[3]);
+        cell.az = 0.25 * (z[1] + z[2] - z[0] - z[3]);
+        cell.br = 0.25 * (r[2] + r[3] - r[0] - r[1]);
+        cell.bz = 0.25 * (z[2] + z[3] - z[0] - z[1]);
+        cell.cr = 0.25 * (r[0] + r[2] - r[1] - r[3]);
+        cell.cz = 0.25 * (z[0] + z[2] - z[1] - z[3]);
+        cell.moments = integrate(cell);
         return cell;
+    }
+
+    /// Whether the corners are those of the cell.
+    static bool isAt(const Cell& cell, const double* r, const double* z)
+    {
+        return std::equal(r, r + 4, cell.r) && std::equal(z, z + 4, cell.z);
     }
 
     static bool contains(const Cell& cell, double r, double z)
@@ -214,132 +235,61 @@ struct Quadrilateral
         return true;
     }
 
-    /// Inverse of the bilinear map by Newton steps; exact after one for parallelograms.
+    /// Inverse of the bilinear map: with h the place less the centre, h x (a + c eta) = eta b x (a + c eta)
+    /// is a quadratic equation for eta, whose root for a parallelogram (no c) is taken in the form that stays
+    /// exact there.
     static std::array<double, 2> local(const Cell& c, double r, double z)
     {
-        double xi = 0;
-        double eta = 0;
-        for (int i = 0; i < 8; ++i) {
-            const double rx = (1 - eta) * (c.r[1] - c.r[0]) + (1 + eta) * (c.r[2] - c.r[3]);
-            const double zx = (1 - eta) * (c.z[1] - c.z[0]) + (1 + eta) * (c.z[2] - c.z[3]);
-            const double re = (1 - xi) * (c.r[3] - c.r[0]) + (1 + xi) * (c.r[2] - c.r[1]);
-            const double ze = (1 - xi) * (c.z[3] - c.z[0]) + (1 + xi) * (c.z[2] - c.z[1]);
-            const double gapR = 4 * r - ((1 - xi) * ((1 - eta) * c.r[0] + (1 + eta) * c.r[3]) +
-                                         (1 + xi) * ((1 - eta) * c.r[1] + (1 + eta) * c.r[2]));
-            const double gapZ = 4 * z - ((1 - xi) * ((1 - eta) * c.z[0] + (1 + eta) * c.z[3]) +
-                                         (1 + xi) * ((1 - eta) * c.z[1] + (1 + eta) * c.z[2]));
-            const double determinant = rx * ze - re * zx;
-            const double stepXi = (gapR * ze - re * gapZ) / determinant;
-            const double stepEta = (rx * gapZ - gapR * zx) / determinant;
-            xi += stepXi;
-            eta += stepEta;
-            if (std::abs(stepXi) + std::abs(stepEta) < 1e-14) {
-                break;
-            }
+        const double hr = r - c.centreR;
+        const double hz = z - c.centreZ;
+        const double quadratic = c.br * c.cz - c.bz * c.cr;
+        const double linear = c.ar * c.bz - c.az * c.br + hr * c.cz - hz * c.cr;
+        const double constant = hr * c.az - hz * c.ar;
+        const double root = std::sqrt(std::max(0.0, linear * linear + 4 * quadratic * constant));
+        const double eta = -2 * constant / (linear + root);
+        const double sideR = c.ar + c.cr * eta;
+        const double sideZ = c.az + c.cz * eta;
+        const double xi =
+            ((hr - c.br * eta) * sideR + (hz - c.bz * eta) * sideZ) / (sideR * sideR + sideZ * sideZ);
+        return {xi, eta};
+    }
+
+    /// @returns the local coordinates
+    static std::array<double, 2> evaluate(const Cell& c, double r, double z, Values<4>& v)
+    {
+        const auto [xi, eta] = local(c, r, z);
+        const double rx = c.ar + c.cr * eta;
+        const double zx = c.az + c.cz * eta;
+        const double re = c.br + c.cr * xi;
+        const double ze = c.bz + c.cz * xi;
+        const double inverse = 1 / (rx * ze - re * zx);
+        for (int k = 0; k < 4; ++k) {
+            const double x = 1 + signXi[k] * xi;
+            const double y = 1 + signEta[k] * eta;
+            const double dx = 0.25 * signXi[k] * y * inverse;
+            const double de = 0.25 * signEta[k] * x * inverse;
+            v.N[k] = 0.25 * x * y;
+            v.dr[k] = dx * ze - de * zx;
+            v.dz[k] = de * rx - dx * re;
         }
         return {xi, eta};
     }
 
-    static double evaluateLocal(const Cell& c, double xi, double eta, Values<4>& v)
+    static MeanDilatation<4> meanDilatation(const Cell& cell)
     {
-        static constexpr double sx[4] = {-1, 1, 1, -1};
-        static constexpr double sy[4] = {-1, -1, 1, 1};
-        double rx = 0, zx = 0, re = 0, ze = 0;
-        double dx[4], de[4];
+        const Moments<4>& moments = cell.moments;
+        MeanDilatation<4> m;
+        m.volume = moments.volume;
         for (int k = 0; k < 4; ++k) {
-            v.N[k] = 0.25 * (1 + sx[k] * xi) * (1 + sy[k] * eta);
-            dx[k] = 0.25 * sx[k] * (1 + sy[k] * eta);
-            de[k] = 0.25 * sy[k] * (1 + sx[k] * xi);
-            rx += dx[k] * c.r[k];
-            zx += dx[k] * c.z[k];
-            re += de[k] * c.r[k];
-            ze += de[k] * c.z[k];
-        }
-        const double determinant = rx * ze - re * zx;
-        for (int k = 0; k < 4; ++k) {
-            v.dr[k] = (dx[k] * ze - de[k] * zx) / determinant;
-            v.dz[k] = (de[k] * rx - dx[k] * re) / determinant;
-        }
-        return determinant;
-    }
-
-    static void evaluate(const Cell& cell, double r, double z, Values<4>& values)
-    {
-        const auto [xi, eta] = local(cell, r, z);
-        evaluateLocal(cell, xi, eta, values);
-    }
-
-    /// Calls visit(xi, eta, weight volume, shape values, r) at the 2 x 2 Gauss points.
-    template <class Visit>
-    static void atGaussPoints(const Cell& c, Visit visit)
-    {
-        constexpr double g = 0.57735026918962576451;
-        for (const double eta : {-g, g}) {
-            for (const double xi : {-g, g}) {
-                Values<4> v;
-                const double determinant = evaluateLocal(c, xi, eta, v);
-                double r = 0;
-                for (int k = 0; k < 4; ++k) {
-                    r += v.N[k] * c.r[k];
-                }
-                visit(xi, eta, axisymmetric ? determinant * r : determinant, v, r);
-            }
-        }
-    }
-
-    static MeanDilatation<4> meanDilatation(const Cell& c)
-    {
-        MeanDilatation<4> m{};
-        atGaussPoints(c, [&m](double, double, double weight, const Values<4>& v, double r) {
-            m.volume += weight;
-            for (int k = 0; k < 4; ++k) {
-                m.br[k] += weight * (v.dr[k] + (axisymmetric ? v.N[k] / r : 0));
-                m.bz[k] += weight * v.dz[k];
-            }
-        });
-        for (int k = 0; k < 4; ++k) {
-            m.br[k] /= m.volume;
-            m.bz[k] /= m.volume;
+            m.br[k] = moments.gr[0][k] + moments.h[0][k];
+            m.bz[k] = moments.gz[0][k];
         }
         return m;
     }
 
-    static std::array<double, 2> heightSlopes(const Cell& c)
-    {
-        return {0.25 * (c.z[1] + c.z[2] - c.z[0] - c.z[3]), 0.25 * (c.z[2] + c.z[3] - c.z[0] - c.z[1])};
-    }
+    static std::array<double, 2> heightSlopes(const Cell& c) { return {c.az, c.bz}; }
 
-    static Moments<4> moments(const Cell& c)
-    {
-        Moments<4> m{};
-        double etaCentre = 0;
-        m.volume = 0;
-        atGaussPoints(c, [&](double xi, double eta, double weight, const Values<4>&, double) {
-            m.volume += weight;
-            m.xiCentre += weight * xi;
-            etaCentre += weight * eta;
-        });
-        m.xiCentre /= m.volume;
-        etaCentre /= m.volume;
-        m.inertiaXi = m.inertiaEta = 0;
-        atGaussPoints(c, [&](double xi, double eta, double weight, const Values<4>& v, double r) {
-            const double share = weight / m.volume;
-            const double moment[3] = {share, share * (xi - m.xiCentre), share * (eta - etaCentre)};
-            m.inertiaXi += moment[1] * (xi - m.xiCentre);
-            m.inertiaEta += moment[2] * (eta - etaCentre);
-            for (int k = 0; k < 4; ++k) {
-                m.n[k] += share * v.N[k];
-            }
-            for (int i = 0; i < 3; ++i) {
-                for (int k = 0; k < 4; ++k) {
-                    m.gr[i][k] += moment[i] * v.dr[k];
-                    m.gz[i][k] += moment[i] * v.dz[k];
-                    m.h[i][k] += axisymmetric ? moment[i] * v.N[k] / r : 0;
-                }
-            }
-        });
-        return m;
-    }
+    static const Moments<4>& moments(const Cell& cell) { return cell.moments; }
 
     static double size(const Cell& c)
     {
@@ -351,6 +301,63 @@ struct Quadrilateral
         const double h1 = area / middle(2, 3, 0, 1);
         const double h2 = area / middle(1, 2, 0, 3);
         return quadrilateralStep * std::min(h1, h2);
+    }
+
+private:
+    static constexpr double signXi[4] = {-1, 1, 1, -1};
+    static constexpr double signEta[4] = {-1, -1, 1, 1};
+
+    static Moments<4> integrate(const Cell& c)
+    {
+        Moments<4> m{};
+        double weights = 0, xiSum = 0, etaSum = 0, xiSquares = 0, etaSquares = 0;
+        constexpr double g = 0.57735026918962576451;
+        for (const double eta : {-g, g}) {
+            for (const double xi : {-g, g}) {
+                const double rx = c.ar + c.cr * eta;
+                const double zx = c.az + c.cz * eta;
+                const double re = c.br + c.cr * xi;
+                const double ze = c.bz + c.cz * xi;
+                const double determinant = rx * ze - re * zx;
+                const double radius =
+                    axisymmetric ? c.centreR + c.ar * xi + c.br * eta + c.cr * xi * eta : 1.0;
+                const double weight = determinant * radius;
+                weights += weight;
+                xiSum += weight * xi;
+                etaSum += weight * eta;
+                xiSquares += weight * xi * xi;
+                etaSquares += weight * eta * eta;
+                const double factor[3] = {1, xi, eta};
+                for (int k = 0; k < 4; ++k) {
+                    const double x = 1 + signXi[k] * xi;
+                    const double y = 1 + signEta[k] * eta;
+                    const double dx = 0.25 * signXi[k] * y * radius;
+                    const double de = 0.25 * signEta[k] * x * radius;
+                    const double shape = 0.25 * x * y;
+                    m.n[k] += weight * shape;
+                    for (int i = 0; i < 3; ++i) {
+                        m.gr[i][k] += factor[i] * (dx * ze - de * zx);
+                        m.gz[i][k] += factor[i] * (de * rx - dx * re);
+                        m.h[i][k] += axisymmetric ? factor[i] * determinant * shape : 0;
+                    }
+                }
+            }
+        }
+        const double inverse = 1 / weights;
+        m.volume = weights;
+        m.xiCentre = xiSum * inverse;
+        const double etaCentre = etaSum * inverse;
+        m.inertiaXi = xiSquares * inverse - m.xiCentre * m.xiCentre;
+        m.inertiaEta = etaSquares * inverse - etaCentre * etaCentre;
+        for (int k = 0; k < 4; ++k) {
+            m.n[k] *= inverse;
+            for (auto* moment : {&m.gr, &m.gz, &m.h}) {
+                (*moment)[0][k] *= inverse;
+                (*moment)[1][k] = (*moment)[1][k] * inverse - m.xiCentre * (*moment)[0][k];
+                (*moment)[2][k] = (*moment)[2][k] * inverse - etaCentre * (*moment)[0][k];
+            }
+        }
+        return m;
     }
 };
 
@@ -395,13 +402,14 @@ struct Triangle
 
     static std::array<double, 2> local(const Cell&, double, double) { return {0, 0}; }
 
-    static void evaluate(const Cell& c, double r, double z, Values<3>& v)
+    static std::array<double, 2> evaluate(const Cell& c, double r, double z, Values<3>& v)
     {
         for (int k = 0; k < 3; ++k) {
             v.N[k] = 1 + c.dr[k] * (r - c.r[k]) + c.dz[k] * (z - c.z[k]);
             v.dr[k] = c.dr[k];
             v.dz[k] = c.dz[k];
         }
+        return {0, 0};
     }
 
     static MeanDilatation<3> meanDilatation(const Cell& c)

@@ -181,6 +181,8 @@ private:
     /// the stress is: the points are samples. Otherwise a cell with few points would have the stiffness of a
     /// full one on a small mass, and rows of points that cross a line would shift weight from cell to cell.
     std::vector<double> fullness_;
+    std::vector<std::array<double, 2>>
+        pointCentre_;                   ///< of filled cells: mean local coordinates of the points
     std::vector<double> gravityShare_;  ///< per material: weighing over inertial density
     std::vector<double> waveSpeed_;     ///< per material
     std::vector<double> density_;       ///< per material, inertial

@@ -152,6 +152,7 @@ ExplicitStep<Shape, phases>::ExplicitStep(const Scene& scene, State& state)
     dilatation_.resize(cells);
     inertiaScale_.resize(cells);
     fullness_.assign(cells, 1);
+    pointCentre_.resize(cells);
     cornerSums_.resize(cells * corners);
     nodes_.resize(mesh.nodes());
     looseNode_.resize(mesh.nodes());
@@ -230,6 +231,11 @@ void ExplicitStep<Shape, phases>::updateCells(const State& state)
             for (int k = 0; k < corners; ++k) {
                 r[k] = state.mesh.r[cellNodes_[c * corners + k]];
                 z[k] = state.mesh.z[cellNodes_[c * corners + k]];
+            }
+            if constexpr (requires { Shape::isAt(cells_[c], r, z); }) {
+                if (Shape::isAt(cells_[c], r, z)) {
+                    continue;
+                }
             }
             cells_[c] = Shape::make(r, z);
             dilatation_[c] = Shape::meanDilatation(cells_[c]);
@@ -605,7 +611,7 @@ void ExplicitStep<Shape, phases>::setSeepage(const State& state, const std::vect
             }
             std::fill_n(p, corners, ofSurface);
         }
-        const shapes::Moments<corners> m = Shape::moments(cells_[c]);
+        const auto& m = Shape::moments(cells_[c]);
         double part[3] = {}; // mean and slopes
         for (int k = 0; k < corners; ++k) {
             part[0] += m.n[k] * p[k];
@@ -688,7 +694,7 @@ void ExplicitStep<Shape, phases>::mapCellToNodes(State& state, int c)
         }
     }
 
-    const shapes::Moments<corners> moments = Shape::moments(cell);
+    const auto& moments = Shape::moments(cell);
     double mass[corners] = {};
     double momentumR[corners] = {};
     double momentumZ[corners] = {};
@@ -717,12 +723,11 @@ void ExplicitStep<Shape, phases>::mapCellToNodes(State& state, int c)
         double s[4] = {}, sx[4] = {}, sy[4] = {};
         for (const int* i = first; i != last; ++i) {
             const int p = *i;
-            Shape::evaluate(cell, points.r[p], points.z[p], values);
+            const auto [x, y] = Shape::evaluate(cell, points.r[p], points.z[p], values);
             addInertiaAndWeight(p);
             const double v = points.volume[p];
             w += v;
             if constexpr (corners == 4) {
-                const auto [x, y] = Shape::local(cell, points.r[p], points.z[p]);
                 wx += v * x;
                 wy += v * y;
                 wxx += v * x * x;
@@ -772,6 +777,7 @@ void ExplicitStep<Shape, phases>::mapCellToNodes(State& state, int c)
             const double known[4] = {ratio * weight, weight, ratio * weight, 0};
             const double x = wx * inverse;
             const double y = wy * inverse;
+            pointCentre_[c] = {x, y};
             const kernels::Spread spread(wxx * inverse - x * x, wyy * inverse - y * y, wxy * inverse - x * y);
             double slopeXi[4];
             double slopeEta[4];
@@ -1146,7 +1152,7 @@ void ExplicitStep<Shape, phases>::mapCellToPoints(State& state, double dt, int c
             liquidRate = twoPhase ? cellLiquidRate_[c] : 0;
         }
         if (filled) {
-            const shapes::Moments<corners> m = Shape::moments(cell);
+            const auto& m = Shape::moments(cell);
             for (int moment = 0; moment < shapes::Moments<corners>::count; ++moment) {
                 double* const g = gradient[moment];
                 for (int k = 0; k < corners; ++k) {
@@ -1174,16 +1180,8 @@ void ExplicitStep<Shape, phases>::mapCellToPoints(State& state, double dt, int c
                 }
                 liquidGradient[1] /= m.inertiaXi;
                 liquidGradient[2] /= m.inertiaEta;
-                double w = 0;
-                for (const int* i = first; i != last; ++i) {
-                    const double v = points.volume[*i];
-                    const auto [x, y] = Shape::local(cell, points.r[*i], points.z[*i]);
-                    w += v;
-                    centreXi += v * x;
-                    centreEta += v * y;
-                }
-                centreXi /= w;
-                centreEta /= w;
+                centreXi = pointCentre_[c][0];
+                centreEta = pointCentre_[c][1];
             }
         } else if (meanDilatation) { // the same mean over the points as in the forces
             double volume = 0;
@@ -1218,18 +1216,13 @@ void ExplicitStep<Shape, phases>::mapCellToPoints(State& state, double dt, int c
     for (const int* i = first; i != last; ++i) {
         const int p = *i;
         const double r = points.r[p];
-        Shape::evaluate(cell, r, points.z[p], values);
+        const auto [xi, eta] = Shape::evaluate(cell, r, points.z[p], values);
         if constexpr (strains) {
             double rr = 0, zz = 0, rz = 0, zr = 0, hoop = 0;
             double ownLiquid = 0;
             if (filled) {
-                double x = 0;
-                double y = 0;
-                if constexpr (corners == 4) {
-                    const auto [xi, eta] = Shape::local(cell, r, points.z[p]);
-                    x = xi - centreXi;
-                    y = eta - centreEta;
-                }
+                const double x = xi - centreXi;
+                const double y = eta - centreEta;
                 const auto at = [&](int j) {
                     return gradient[0][j] + x * gradient[1][j] + y * gradient[2][j];
                 };

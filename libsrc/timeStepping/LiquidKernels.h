@@ -60,7 +60,7 @@ void ExplicitStep<Shape, phases>::mapLiquidToNodes(const State& state, int c)
     Values values;
     for (const int* i = pointCells_.begin(c); i != pointCells_.end(c); ++i) {
         const int p = *i;
-        Shape::evaluate(cell, points.r[p], points.z[p], values);
+        const auto [x, y] = Shape::evaluate(cell, points.r[p], points.z[p], values);
         const LiquidProperties& properties = liquid_[points.material[p]];
         const double n = porosity(points, p);
         const double v = points.volume[p];
@@ -83,7 +83,6 @@ void ExplicitStep<Shape, phases>::mapLiquidToNodes(const State& state, int c)
         pressureVolume += v * pressure;
         if (full) {
             if (corners == 4 && !meanDilatation) {
-                const auto [x, y] = Shape::local(cell, points.r[p], points.z[p]);
                 wx += v * x;
                 wy += v * y;
                 wxx += v * x * x;
@@ -116,7 +115,7 @@ void ExplicitStep<Shape, phases>::mapLiquidToNodes(const State& state, int c)
         }
         if constexpr (corners == 4) {
             if (!meanDilatation) { // slopes as of the stress (mapCellToNodes)
-                const shapes::Moments<corners> m = Shape::moments(cell);
+                const auto& m = Shape::moments(cell);
                 const double x = wx / volume;
                 const double y = wy / volume;
                 const kernels::Spread spread(wxx / volume - x * x, wyy / volume - y * y,
