@@ -175,7 +175,7 @@ ExplicitStep<Shape, phases>::ExplicitStep(const Scene& scene, State& state)
             pumped_ = pumped_ || surface.givesFlow();
         }
         if (pumped_) {
-            voidForce_.resize(cells * corners);
+            voidForce_.resize(cellNodes_.size());
         }
         state.pumped.resize(scene.freeSurfaces.size(), 0);
         findFreeSurfaces(state);
@@ -247,7 +247,8 @@ void ExplicitStep<Shape, phases>::updateCells(const State& state)
 template <class Shape, int phases>
 void ExplicitStep<Shape, phases>::divideCells(const State& state)
 {
-    const long long total = static_cast<long long>(state.points.size() + activeCells_.size());
+    const std::size_t items = state.points.size() + activeCells_.size();
+    const auto total = static_cast<long long>(items);
     const int threads = threads_.count();
     long long sum = 0;
     int part = 1;
@@ -316,11 +317,12 @@ void ExplicitStep<Shape, phases>::classifyCells(State& state)
         for (int c = 0; c < cells; ++c) {
             if (!occupied_[c]) {
                 state.filled[c] = 0;
-                std::fill_n(cornerSums_.begin() + c * corners, corners, Corner{});
+                const std::ptrdiff_t first = static_cast<std::ptrdiff_t>(c) * corners;
+                std::fill_n(cornerSums_.begin() + first, corners, Corner{});
                 if constexpr (twoPhase) {
-                    std::fill_n(liquidCorners_.begin() + c * corners, corners, LiquidCorner{});
+                    std::fill_n(liquidCorners_.begin() + first, corners, LiquidCorner{});
                     if (pumped_) {
-                        std::fill_n(voidForce_.begin() + c * corners, corners, std::array<double, 2>{});
+                        std::fill_n(voidForce_.begin() + first, corners, std::array<double, 2>{});
                     }
                 }
             }
