@@ -40,7 +40,8 @@ def read_list(file):
 
 
 class Points:
-    """Material points of one time directory: r, z, R, Z (initial places), mass, volume and the velocity."""
+    """Material points of one time directory: r, z, R, Z (initial places), mass, volume, velocity, stress; porePressure where
+    there is water."""
 
     def __init__(self, directory):
         folder = directory / "lagrangian/materialPoints"
@@ -51,6 +52,8 @@ class Points:
         self.rr, self.rz, self.tt, self.zz = read_list(folder / "stress")[:, [0, 2, 3, 5]].T
         self.mass = read_list(folder / "mass")[:, 0]
         self.volume = read_list(folder / "volume")[:, 0]
+        if (folder / "porePressure").exists():
+            self.porePressure = read_list(folder / "porePressure")[:, 0]
 
 
 def written(run):
@@ -60,9 +63,11 @@ def written(run):
 
 
 def processor_time(run):
-    """Seconds that the solver took."""
-    found = re.findall(r"ExecutionTime = ([0-9.]+)", (run / "log.axiMpmFoam").read_text(encoding="utf-8"))
-    return float(found[-1])
+    """Seconds of the processor that the steps of the solver took, output apart."""
+    log = (run / "log.axiMpmFoam").read_text(encoding="utf-8")
+    cost, points = re.search(r"^Speed: ([0-9.]+) ns per point and step \(.*?(\d+) points", log, re.MULTILINE).groups()
+    steps = re.search(r"^Stopped: .* after (\d+) steps", log, re.MULTILINE)[1]
+    return 1e-9 * float(cost) * int(points) * int(steps)
 
 
 def weighted_norm(weight, values):
@@ -87,9 +92,9 @@ def report(quantity, runs, errors, target, least_order=None):
     rows = []
     for run, error, order in zip(runs, errors, orders):
         seconds = processor_time(run)
-        print(f"{cells(run):>6} {error:>10.2e} {order:>6.2f} {seconds:>8.2f}")
+        print(f"{cells(run):>6} {error:>10.2e} {order:>6.2f} {seconds:>8.3g}")
         bound = f"{target:g}" if run == runs[-1] else ""
-        rows.append([quantity, cells(run), f"{error:.3e}", f"{order:.2f}", f"{seconds:.2f}", bound])
+        rows.append([quantity, cells(run), f"{error:.3e}", f"{order:.2f}", f"{seconds:.3g}", bound])
     with open("runs/results.csv", "w", encoding="utf-8", newline="") as file:
         writer = csv.writer(file, lineterminator="\n")
         writer.writerow(["quantity", "cells", "error", "order", "cpuSeconds", "target"])
