@@ -100,6 +100,21 @@ void LiquidBoundary::addInflows(const BackgroundMesh& mesh, double time, std::ve
     }
 }
 
+std::vector<int> LiquidBoundary::openPatches(const BackgroundMesh& mesh) const
+{
+    std::vector<int> patchOf(mesh.nodes(), -1);
+    for (const auto* patches : {&open_, &fed_}) {
+        for (const auto& item : *patches) {
+            for (const BoundaryEdge& edge : mesh.patches[item.first].edges) {
+                for (const int i : edge.node) {
+                    patchOf[i] = patchOf[i] < 0 ? item.first : patchOf[i];
+                }
+            }
+        }
+    }
+    return patchOf;
+}
+
 void LiquidBoundary::setPressures(const BackgroundMesh& mesh, double time, double unitWeight,
                                   std::vector<double>& excessPressure) const
 {

@@ -33,6 +33,9 @@ public:
     /// Sets the given pressures, less the hydrostatic part, at the nodes of their patches.
     void setPressures(const BackgroundMesh& mesh, double time, double unitWeight,
                       std::vector<double>& excessPressure) const;
+    /// Per node: the patch, an index of the mesh's, whose pressure or flux lets water through there, or -1;
+    /// of two the first.
+    [[nodiscard]] std::vector<int> openPatches(const BackgroundMesh& mesh) const;
     [[nodiscard]] bool hasPressures() const { return !open_.empty(); }
 
 private:

@@ -63,7 +63,10 @@ def written(run):
 
 
 def processor_time(run):
-    """Seconds of the processor that the steps of the solver took, output apart."""
+    """Seconds of the processor that the steps of the solver took, output apart; of other programs all of their time."""
+    if not (run / "log.axiMpmFoam").exists():
+        log = next(run.glob("log.*Foam")).read_text(encoding="utf-8")
+        return float(re.findall(r"ExecutionTime = ([0-9.]+)", log)[-1])
     log = (run / "log.axiMpmFoam").read_text(encoding="utf-8")
     cost, points = re.search(r"^Speed: ([0-9.]+) ns per point and step \(.*?(\d+) points", log, re.MULTILINE).groups()
     steps = re.search(r"^Stopped: .* after (\d+) steps", log, re.MULTILINE)[1]

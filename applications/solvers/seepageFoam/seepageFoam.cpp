@@ -18,6 +18,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <ctime>
 #include <iostream>
 #include <numbers>
 #include <optional>
@@ -64,17 +65,19 @@ Controls readControls(const std::filesystem::path& caseDirectory, InputProblems&
 struct Figures
 {
     double plugFlow = 0, seabedFlow = 0, patchFlow = 0; ///< out of the soil [m3/s] or [m2/s]
+    std::vector<double> flowOfPatch;                    ///< likewise, per patch of the mesh
     double tipExcess = 0;                               ///< mean over the tip [Pa]
     double exitAtAxis = 0, exitAtWall = 0;              ///< upward gradients at the plug's surface [-]
 };
 
 Figures readOff(const Seepage& seepage, const SeepageScene& setup, const State& state,
-                const std::vector<BodySurface>& surfaces, const std::vector<double>& excess,
-                double unitWeight)
+                const std::vector<BodySurface>& surfaces, const std::vector<int>& openPatches,
+                const std::vector<double>& excess, double unitWeight)
 {
     const BackgroundMesh& mesh = state.mesh;
     const double whole = mesh.geometry == Geometry::axisymmetric ? 2 * std::numbers::pi : 1.0;
     Figures figures;
+    figures.flowOfPatch.resize(mesh.patches.size(), 0);
     const std::vector<double> inflow = seepage.nodalInflow(excess);
     for (const int i : seepage.nodes()) {
         double& flow = setup.insideSurface[i]    ? figures.plugFlow
@@ -82,7 +85,11 @@ Figures readOff(const Seepage& seepage, const SeepageScene& setup, const State& 
                                                  : figures.patchFlow;
         // Where nothing is given only what is fed in crosses the boundary; the rest of transient flow is
         // storage.
-        flow -= whole * (std::isnan(setup.given[i]) ? setup.inflow[i] : inflow[i]);
+        const double out = -whole * (std::isnan(setup.given[i]) ? setup.inflow[i] : inflow[i]);
+        flow += out;
+        if (&flow == &figures.patchFlow && openPatches[i] >= 0) {
+            figures.flowOfPatch[openPatches[i]] += out;
+        }
     }
     double nearest = std::numeric_limits<double>::max();
     double farthest = -1;
@@ -196,23 +203,35 @@ int run(const std::filesystem::path& caseDirectory, bool dryRun, const std::stri
         log.line("Dry run: everything was read and checked; nothing is written");
         return 0;
     }
-    Monitor monitor(caseDirectory, "seepage", runTime.startName(), "seepage",
-                    {{"plugFlow", flowUnit},
-                     {"seabedFlow", flowUnit},
-                     {"patchFlow", flowUnit},
-                     {"tipExcessPressure", "Pa"},
-                     {"exitGradientAtAxis", "-"},
-                     {"exitGradientAtWall", "-"}});
+    const std::vector<int> openPatches = scene.liquidBoundary.openPatches(state.mesh);
+    std::vector<MonitorColumn> columns = {{"plugFlow", flowUnit},      {"seabedFlow", flowUnit},
+                                          {"patchFlow", flowUnit},     {"tipExcessPressure", "Pa"},
+                                          {"exitGradientAtAxis", "-"}, {"exitGradientAtWall", "-"}};
+    std::vector<int> listed; // patches that let water through
+    for (int p = 0; p < static_cast<int>(state.mesh.patches.size()); ++p) {
+        if (std::ranges::find(openPatches, p) != openPatches.end()) {
+            listed.push_back(p);
+            columns.push_back({"patch_" + state.mesh.patches[p].name, flowUnit});
+        }
+    }
+    Monitor monitor(caseDirectory, "seepage", runTime.startName(), "seepage", columns);
+    const std::clock_t begin = std::clock();
     const auto report = [&](const std::vector<double>& excess, bool write) {
-        const Figures figures = readOff(seepage, setup, state, surfaces, excess, unitWeight);
-        const double values[] = {figures.plugFlow,  figures.seabedFlow, figures.patchFlow,
-                                 figures.tipExcess, figures.exitAtAxis, figures.exitAtWall};
-        monitor.record(state.time, values);
+        const Figures figures = readOff(seepage, setup, state, surfaces, openPatches, excess, unitWeight);
+        std::vector<double> values = {figures.plugFlow,  figures.seabedFlow, figures.patchFlow,
+                                      figures.tipExcess, figures.exitAtAxis, figures.exitAtWall};
         log.line(text("Time = %g", state.time));
+        for (const int p : listed) {
+            values.push_back(figures.flowOfPatch[p]);
+            log.line(text("Flow out of patch %s: %.6g %s", state.mesh.patches[p].name.c_str(),
+                          figures.flowOfPatch[p], flowUnit.c_str()));
+        }
+        monitor.record(state.time, values);
         log.line(text("Flow out of the soil: plug %.6g, seabed %.6g, patches %.6g %s", figures.plugFlow,
                       figures.seabedFlow, figures.patchFlow, flowUnit.c_str()));
         log.line(text("Tip: mean excess pressure %.6g Pa; exit gradient at the axis %.5g, at the wall %.5g",
                       figures.tipExcess, figures.exitAtAxis, figures.exitAtWall));
+        log.line(text("ExecutionTime = %.2f s", static_cast<double>(std::clock() - begin) / CLOCKS_PER_SEC));
         if (write) {
             writeGrid(caseDirectory, seepage, setup, state.mesh, excess, unitWeight, state.time);
         }
