@@ -11,6 +11,8 @@ import numpy as np
 matplotlib.use("Agg")
 from matplotlib import pyplot  # noqa: E402  (after the choice of the backend)
 
+reported, missed = [], []  # rows of runs/results.csv; quantities that miss their target
+
 
 def folders():
     """The runs to compare, from the command line, in ascending resolution: runs/<cells>."""
@@ -40,8 +42,10 @@ def read_list(file):
 
 
 class Points:
-    """Material points of one time directory: r, z, R, Z (initial places), mass, volume, velocity, stress; porePressure where
-    there is water."""
+    """Material points of one time directory: r, z, R, Z (initial places), mass, volume, velocity, stress.
+
+    Two-phase soil has the velocity wr, wz and the pressure p of its liquid besides.
+    """
 
     def __init__(self, directory):
         folder = directory / "lagrangian/materialPoints"
@@ -53,7 +57,8 @@ class Points:
         self.mass = read_list(folder / "mass")[:, 0]
         self.volume = read_list(folder / "volume")[:, 0]
         if (folder / "porePressure").exists():
-            self.porePressure = read_list(folder / "porePressure")[:, 0]
+            self.wr, self.wz = read_list(folder / "liquidVelocity")[:, [0, 2]].T
+            self.p = read_list(folder / "porePressure")[:, 0]
 
 
 def written(run):
@@ -78,38 +83,43 @@ def weighted_norm(weight, values):
     return np.sqrt(np.sum(weight * values**2) / np.sum(weight))
 
 
-def report(quantity, runs, errors, target, least_order=None):
-    """Prints the table, writes runs/results.csv, and ends with status 1 where a target is missed.
+def report(quantity, runs, errors, target, least_order=None, last=True):
+    """Prints the table, adds to runs/results.csv, and ends with status 1 where a target is missed.
 
     quantity     what the error is of, in words
     errors       one per run
     target       bound of the error of the finest run, the study's finest resolution or the only one asked for
     least_order  bound of the order between the two finest runs; none where the error does not follow a power
+    last         no: another quantity follows, whose report ends with the status of both
     """
     orders = [float("nan")]
     for coarse, fine in zip(range(len(runs)), range(1, len(runs))):
         ratio = np.log(cells(runs[fine]) / cells(runs[coarse]))
-        decay = errors[coarse] / errors[fine]  # an error that changes its sign has no order
+        # an error that changes its sign, or vanishes, has no order
+        decay = errors[coarse] / errors[fine] if errors[fine] else float("nan")
         orders.append(np.log(decay) / ratio if decay > 0 else float("nan"))
     print(f"\n{quantity}\n{'cells':>6} {'error':>10} {'order':>6} {'CPU [s]':>8}")
-    rows = []
     for run, error, order in zip(runs, errors, orders):
         seconds = processor_time(run)
         print(f"{cells(run):>6} {error:>10.2e} {order:>6.2f} {seconds:>8.3g}")
         bound = f"{target:g}" if run == runs[-1] else ""
-        rows.append([quantity, cells(run), f"{error:.3e}", f"{order:.2f}", f"{seconds:.3g}", bound])
+        reported.append([quantity, cells(run), f"{error:.3e}", f"{order:.2f}", f"{seconds:.3g}", bound])
     with open("runs/results.csv", "w", encoding="utf-8", newline="") as file:
         writer = csv.writer(file, lineterminator="\n")
         writer.writerow(["quantity", "cells", "error", "order", "cpuSeconds", "target"])
-        writer.writerows(rows)
+        writer.writerows(reported)
     failed = []
     if not abs(errors[-1]) <= target:
         failed.append(f"error {errors[-1]:.2e} of the finest run, target {target:g}")
     if least_order is not None and len(runs) > 1 and not orders[-1] >= least_order:
         failed.append(f"order {orders[-1]:.2f}, target {least_order:g}")
     if failed:
-        sys.exit("MISSED: " + "; ".join(failed))
-    print(f"within the target {target:g}" + (f", order at least {least_order:g}" if least_order else ""))
+        print("MISSED: " + "; ".join(failed))
+        missed.append(quantity)
+    else:
+        print(f"within the target {target:g}" + (f", order at least {least_order:g}" if least_order else ""))
+    if last and missed:
+        sys.exit("MISSED: " + "; ".join(missed))
 
 
 def picture(xlabel, ylabel):

@@ -27,10 +27,10 @@ for run in runs:
     for points in v.written(run):
         factor = cv * points.time
         if abs(factor - 0.1) < 1e-3 or abs(factor - 0.5) < 1e-3:
-            difference = points.porePressure / q - exact(1 - points.Z, points.time)
+            difference = points.p / q - exact(1 - points.Z, points.time)
             if abs(factor - 0.1) < 1e-3:
                 errors.append(np.sqrt(np.mean(difference**2)))
-            axes.plot(points.porePressure / q, points.z, ".", markersize=3,
+            axes.plot(points.p / q, points.z, ".", markersize=3,
                       label=f"{v.cells(run)} cells, T = {factor:.1f}: rms {np.sqrt(np.mean(difference**2)):.1e}")
 height = np.linspace(0, 1, 200)
 for factor in (0.1, 0.5):
