@@ -106,6 +106,12 @@ Cloud cloud(const MaterialPoints& points, const std::vector<std::string>& stateN
             interleaved("liquidVelocity", FieldKind::vector, n, inPlane(points.wr, points.wz)));
         result.fields.push_back(plain("porePressure", points.porePressure));
     }
+    if (points.affine()) {
+        result.fields.push_back(interleaved("radialVelocityGradient", FieldKind::vector, n,
+                                            inPlane(points.gradient[0], points.gradient[1])));
+        result.fields.push_back(interleaved("verticalVelocityGradient", FieldKind::vector, n,
+                                            inPlane(points.gradient[2], points.gradient[3])));
+    }
     if (points.loaded()) {
         result.fields.push_back(labels("load", points.load));
         result.fields.push_back(plain("loadArea", points.loadArea));
@@ -149,6 +155,14 @@ MaterialPoints materialPoints(const Cloud& cloud, const std::vector<std::string>
         const auto& liquid = values(cloud, "liquidVelocity", FieldKind::vector);
         points.wr = component(liquid, 0, 3);
         points.wz = component(liquid, 2, 3);
+    }
+    if (std::ranges::any_of(cloud.fields, [](const NamedField& field) {
+            return field.name == "radialVelocityGradient" || field.name == "verticalVelocityGradient";
+        })) {
+        const auto& radial = values(cloud, "radialVelocityGradient", FieldKind::vector);
+        const auto& vertical = values(cloud, "verticalVelocityGradient", FieldKind::vector);
+        points.gradient = {component(radial, 0, 3), component(radial, 2, 3), component(vertical, 0, 3),
+                           component(vertical, 2, 3)};
     }
     if (std::ranges::find(cloud.fields, "load", &NamedField::name) != cloud.fields.end()) {
         points.load = integers(values(cloud, "load", FieldKind::label));

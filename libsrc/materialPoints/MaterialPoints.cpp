@@ -19,6 +19,11 @@ void forEachArray(MaterialPoints& points, const Change& change)
             change(*array);
         }
     }
+    if (points.affine()) {
+        for (std::vector<double>& component : points.gradient) {
+            change(component);
+        }
+    }
     for (std::vector<double>& component : points.stress) {
         change(component);
     }

@@ -24,6 +24,9 @@ struct MaterialPoints
     /// Two-phase soil only, otherwise empty: velocity of the pore liquid [m/s], and its pressure, compression
     /// positive [Pa].
     std::vector<double> wr, wz, porePressure;
+    /// With affine transfer only, otherwise empty: the gradient of its velocity that a point brings to the
+    /// nodes, rr rz zr zz with the component first [1/s].
+    std::array<std::vector<double>, 4> gradient;
     /// With point loads only, otherwise empty: index of the point's load or -1, and the area that it acts on
     /// at the start [m2/rad] or [m].
     std::vector<int> load;
@@ -31,6 +34,7 @@ struct MaterialPoints
 
     [[nodiscard]] std::size_t size() const { return r.size(); }
     [[nodiscard]] bool twoPhase() const { return !porePressure.empty(); }
+    [[nodiscard]] bool affine() const { return !gradient[0].empty(); }
     [[nodiscard]] bool loaded() const { return !load.empty(); }
     void resize(std::size_t points, std::size_t stateVariables);
     /// Adds the liquid, moving with the solid, at zero pressure.

@@ -26,6 +26,9 @@ constexpr Keyword keywords[] = {
     {"seepageGate", "-", "0.05", "(0, inf)",
      "warn where what quasiSteady leaves out passes this share of the pressures"},
     {"flipShare", "-", "1", "[0, 1]", "share of the FLIP velocity update per step, the rest is PIC"},
+    {"affine", "flag", "no", "",
+     "APIC: points bring the gradient of their velocity to the nodes, which keeps angular momentum; "
+     "flipShare 0"},
     {"picTime", "s", "0", "[0, inf)", "time over which velocities relax to the PIC ones; 0 is never"},
     {"localDamping", "-", "0", "[0, 1)",
      "share of the out-of-balance force that opposes the motion; 0 to 0.05 while a body penetrates"},
@@ -99,6 +102,14 @@ SolutionControls readSolutionControls(const Dictionary& mpmSolution, bool triang
     controls.seepageGate = reader.number("seepageGate");
     controls.flipShare = reader.number("flipShare");
     controls.picTime = reader.number("picTime");
+    controls.affine = reader.flag("affine");
+    if (controls.affine && controls.flipShare != 0) {
+        reader.problem("affine", "affine (APIC) takes the place of FLIP", "flipShare 0;");
+    }
+    if (controls.affine && controls.remap != SolutionControls::Remap::loose) {
+        reader.problem("affine", "affine (APIC) is unstable without velocityRemap loose",
+                       "velocityRemap loose;");
+    }
     controls.localDamping = reader.number("localDamping");
     controls.linearBulkViscosity = reader.number("linearBulkViscosity");
     controls.quadraticBulkViscosity = reader.number("quadraticBulkViscosity");

@@ -152,6 +152,9 @@ ExplicitStep<Shape, phases>::ExplicitStep(const Scene& scene, State& state)
     dilatation_.resize(cells);
     inertiaScale_.resize(cells);
     fullness_.assign(cells, 1);
+    for (auto& component : state.points.gradient) {
+        component.resize(scene.controls.affine ? state.points.size() : 0, 0);
+    }
     pointCentre_.resize(cells);
     cornerSums_.resize(cells * corners);
     nodes_.resize(mesh.nodes());
@@ -703,6 +706,13 @@ void ExplicitStep<Shape, phases>::mapCellToNodes(State& state, int c)
     double forceR[corners] = {};
     double forceZ[corners] = {};
     Values values;
+    const bool affine = points.affine();
+    double nodeR[corners] = {};
+    double nodeZ[corners] = {};
+    for (int k = 0; affine && k < corners; ++k) {
+        nodeR[k] = state.mesh.r[cellNodes_[c * corners + k]];
+        nodeZ[k] = state.mesh.z[cellNodes_[c * corners + k]];
+    }
     const auto addInertiaAndWeight = [&](int p) {
         const double m = twoPhase ? points.mass[p] * solidShare_[points.material[p]] : points.mass[p];
         const double mr = m * points.vr[p];
@@ -716,6 +726,12 @@ void ExplicitStep<Shape, phases>::mapCellToNodes(State& state, int c)
             momentumZ[k] += values.N[k] * mz;
             forceR[k] += values.N[k] * wr;
             forceZ[k] += values.N[k] * wz;
+        }
+        for (int k = 0; affine && k < corners; ++k) {
+            const double r = values.N[k] * m * (nodeR[k] - points.r[p]);
+            const double z = values.N[k] * m * (nodeZ[k] - points.z[p]);
+            momentumR[k] += points.gradient[0][p] * r + points.gradient[1][p] * z;
+            momentumZ[k] += points.gradient[2][p] * r + points.gradient[3][p] * z;
         }
     };
 
@@ -1211,6 +1227,7 @@ void ExplicitStep<Shape, phases>::mapCellToPoints(State& state, double dt, int c
         }
     }
     const bool sharedRate = meanDilatation || nodalAverage;
+    const bool affine = points.affine();
 
     double rateSum = 0;
     double shapeSum = 0, excessSum = 0, volumeSum = 0;
@@ -1248,6 +1265,18 @@ void ExplicitStep<Shape, phases>::mapCellToPoints(State& state, double dt, int c
                     for (int k = 0; k < corners; ++k) {
                         ownLiquid += (values.dr[k] + values.N[k] * inverseR) * wr[k] + values.dz[k] * wz[k];
                     }
+                }
+            }
+            if (affine) {
+                double ofPoint[4] = {};
+                for (int k = 0; k < corners; ++k) {
+                    ofPoint[0] += values.dr[k] * vr[k];
+                    ofPoint[1] += values.dz[k] * vr[k];
+                    ofPoint[2] += values.dr[k] * vz[k];
+                    ofPoint[3] += values.dz[k] * vz[k];
+                }
+                for (int j = 0; j < 4; ++j) {
+                    points.gradient[j][p] = ofPoint[j];
                 }
             }
             const double own = rr + zz + hoop;
@@ -1364,6 +1393,13 @@ void ExplicitStep<Shape, phases>::addRemappedMomentum(const State& state, int c)
         for (int k = 0; k < corners; ++k) {
             out[k].momentumR += values.N[k] * m * points.vr[p];
             out[k].momentumZ += values.N[k] * m * points.vz[p];
+        }
+        for (int k = 0; points.affine() && k < corners; ++k) {
+            const int node = cellNodes_[c * corners + k];
+            const double r = values.N[k] * m * (state.mesh.r[node] - points.r[p]);
+            const double z = values.N[k] * m * (state.mesh.z[node] - points.z[p]);
+            out[k].momentumR += points.gradient[0][p] * r + points.gradient[1][p] * z;
+            out[k].momentumZ += points.gradient[2][p] * r + points.gradient[3][p] * z;
         }
         if constexpr (twoPhase) {
             const double liquid = inertiaScale_[c] * fullness_[c] * porosity(points, p) *

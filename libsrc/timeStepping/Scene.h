@@ -44,7 +44,11 @@ struct SolutionControls
     Integration integration = Integration::mixed;
     Locking locking = Locking::meanDilatation;
     Remap remap = Remap::loose;
-    double flipShare = 1;              ///< share of the FLIP velocity update per step [-]
+    double flipShare = 1; ///< share of the FLIP velocity update per step [-]
+    /// APIC [Jiang, Schroeder, Selle, Teran & Stomakhin 2015] instead of PIC: points bring the gradient of
+    /// their velocity to the nodes, taken from the velocities that strains are taken from. Unstable with a
+    /// share of FLIP.
+    bool affine = false;
     double picTime = 0;                ///< time over which velocities relax to the PIC ones [s]; 0: never
     double localDamping = 0;           ///< share of the out-of-balance force [-]
     double linearBulkViscosity = 0;    ///< [-]

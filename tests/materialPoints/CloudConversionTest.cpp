@@ -38,6 +38,10 @@ MaterialPoints randomPoints(std::size_t count)
     for (auto& values : points.stress) {
         fillNumbers(values);
     }
+    for (auto& values : points.gradient) {
+        values.resize(count);
+        fillNumbers(values);
+    }
     for (auto* values : {&points.cell, &points.material, &points.id}) {
         for (int& value : *values) {
             value = static_cast<int>(random() % 2147483647);
@@ -58,6 +62,9 @@ void expectSame(const MaterialPoints& a, const MaterialPoints& b)
     EXPECT_TRUE(sameBits(a.vr, b.vr));
     EXPECT_TRUE(sameBits(a.vz, b.vz));
     EXPECT_TRUE(sameBits(a.mass, b.mass));
+    for (std::size_t k = 0; k < a.gradient.size(); ++k) {
+        EXPECT_TRUE(sameBits(a.gradient[k], b.gradient[k]));
+    }
     EXPECT_TRUE(sameBits(a.volume, b.volume));
     for (int k = 0; k < 4; ++k) {
         EXPECT_TRUE(sameBits(a.stress[k], b.stress[k])) << "component " << k;
