@@ -198,6 +198,7 @@ struct Quadrilateral
     {
         double r[4], z[4];
         double centreR, centreZ, ar, az, br, bz, cr, cz;
+        double size; ///< for the stable step [m]
         Moments<4> moments;
     };
 
@@ -214,6 +215,7 @@ struct Quadrilateral
         cell.bz = 0.25 * (z[2] + z[3] - z[0] - z[1]);
         cell.cr = 0.25 * (r[0] + r[2] - r[1] - r[3]);
         cell.cz = 0.25 * (z[0] + z[2] - z[1] - z[3]);
+        cell.size = quadrilateralStep * leastExtent(cell);
         cell.moments = integrate(cell);
         return cell;
     }
@@ -255,7 +257,8 @@ struct Quadrilateral
     }
 
     /// @returns the local coordinates
-    static std::array<double, 2> evaluate(const Cell& c, double r, double z, Values<4>& v)
+    [[gnu::always_inline]] static std::array<double, 2> evaluate(const Cell& c, double r, double z,
+                                                                 Values<4>& v)
     {
         const auto [xi, eta] = local(c, r, z);
         const double rx = c.ar + c.cr * eta;
@@ -291,21 +294,18 @@ struct Quadrilateral
 
     static const Moments<4>& moments(const Cell& cell) { return cell.moments; }
 
-    static double size(const Cell& c)
-    {
-        const double area =
-            0.5 * ((c.r[2] - c.r[0]) * (c.z[3] - c.z[1]) - (c.r[3] - c.r[1]) * (c.z[2] - c.z[0]));
-        const auto middle = [&](int a, int b, int d, int e) {
-            return std::hypot(c.r[a] + c.r[b] - c.r[d] - c.r[e], c.z[a] + c.z[b] - c.z[d] - c.z[e]) / 2;
-        };
-        const double h1 = area / middle(2, 3, 0, 1);
-        const double h2 = area / middle(1, 2, 0, 3);
-        return quadrilateralStep * std::min(h1, h2);
-    }
+    static double size(const Cell& c) { return c.size; }
 
 private:
     static constexpr double signXi[4] = {-1, 1, 1, -1};
     static constexpr double signEta[4] = {-1, -1, 1, 1};
+
+    /// Area over the longer of the two lines between the middles of opposite sides.
+    static double leastExtent(const Cell& c)
+    {
+        const double longest = std::max(c.ar * c.ar + c.az * c.az, c.br * c.br + c.bz * c.bz);
+        return 2 * (c.ar * c.bz - c.az * c.br) / std::sqrt(longest);
+    }
 
     static Moments<4> integrate(const Cell& c)
     {

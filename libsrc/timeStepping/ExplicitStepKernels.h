@@ -1268,16 +1268,10 @@ void ExplicitStep<Shape, phases>::mapCellToPoints(State& state, double dt, int c
                 }
             }
             if (affine) {
-                double ofPoint[4] = {};
-                for (int k = 0; k < corners; ++k) {
-                    ofPoint[0] += values.dr[k] * vr[k];
-                    ofPoint[1] += values.dz[k] * vr[k];
-                    ofPoint[2] += values.dr[k] * vz[k];
-                    ofPoint[3] += values.dz[k] * vz[k];
-                }
-                for (int j = 0; j < 4; ++j) {
-                    points.gradient[j][p] = ofPoint[j];
-                }
+                points.gradient[0][p] = rr;
+                points.gradient[1][p] = rz;
+                points.gradient[2][p] = zr;
+                points.gradient[3][p] = zz;
             }
             const double own = rr + zz + hoop;
             const double trace = sharedRate ? rate : own;
