@@ -54,5 +54,5 @@ axes.plot(with_inertia(height), height, "k--", linewidth=0.8, label="with inerti
 v.save(figure, axes)
 v.report("Terzaghi ramp: pore pressure", runs, errors[terzaghi],
          target={10: 2e-2, 20: 7e-3}.get(v.cells(runs[-1]), 6e-3), last=False)
-v.report("Terzaghi ramp: pore pressure, with inertia", runs, errors[with_inertia],
+v.report("Terzaghi ramp: pore pressure with inertia", runs, errors[with_inertia],
          target={10: 2e-2, 20: 5e-3}.get(v.cells(runs[-1]), 1.2e-3), least_order=1.7)
