@@ -302,6 +302,14 @@ CaseScene readCaseScene(const std::filesystem::path& caseDirectory, const std::f
                                                    "the scheme and its switches", problems)) {
         scene.controls = readSolutionControls(*dictionary, state.mesh.corners == 3, problems);
         result.monitorInterval = readMonitorInterval(*dictionary);
+        for (const Material& material : scene.materials) {
+            if (scene.controls.affine && material.law->plastic()) {
+                problems.add({"system/mpmSolution", 0},
+                             "affine (APIC) is unstable where soil yields beside a free surface, and '" +
+                                 material.name + "' can",
+                             "flipShare 1; affine no;");
+            }
+        }
     }
     if (fileExists(caseDirectory / "constant/dynamicMeshDict")) {
         if (const auto dictionary =

@@ -47,7 +47,7 @@ struct SolutionControls
     double flipShare = 1; ///< share of the FLIP velocity update per step [-]
     /// APIC [Jiang, Schroeder, Selle, Teran & Stomakhin 2015] instead of PIC: points bring the gradient of
     /// their velocity to the nodes, taken from the velocities that strains are taken from. Unstable with a
-    /// share of FLIP.
+    /// share of FLIP, and where soil yields beside a free surface.
     bool affine = false;
     double picTime = 0;                ///< time over which velocities relax to the PIC ones [s]; 0: never
     double localDamping = 0;           ///< share of the out-of-balance force [-]
