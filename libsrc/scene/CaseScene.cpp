@@ -118,6 +118,7 @@ void readLiquid(const std::filesystem::path& caseDirectory, const std::string& s
     }
     if (const Dictionary* surfaces = fieldP->findDictionary("freeSurfaces")) {
         std::vector<std::string> names;
+        names.reserve(result.state.bodies.size());
         for (const RigidBody& body : result.state.bodies) {
             names.push_back(body.name);
         }
