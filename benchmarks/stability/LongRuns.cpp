@@ -104,7 +104,7 @@ Outcome freeFall(bool triangles, double ofStable, double share)
     simulation.start();
     const double weighing =
         simulation.scene.materials[0].weighingDensity() / simulation.scene.materials[0].inertialDensity();
-    const double duration = std::sqrt(2 * 0.95 * lower / (9.81 * weighing));
+    const double duration = std::sqrt(2 * 0.85 * lower / (9.81 * weighing));
     const double step = ofStable * simulation.step->stableStep(simulation.state).step;
     Outcome outcome;
     const MaterialPoints& points = simulation.state.points;
