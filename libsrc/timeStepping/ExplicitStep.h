@@ -152,6 +152,7 @@ private:
     template <bool velocities, bool strains>
     void mapCellToPoints(State& state, double dt, int c);
     void addRemappedMomentum(const State& state, int c);
+    [[nodiscard]] std::array<double, 2> affineVelocity(const State& state, int p, int corner) const;
     void updateStress(State& state);
     void moveBodiesAndMesh(State& state, double dt);
     void relocate(State& state);

@@ -676,6 +676,17 @@ void ExplicitStep<Shape, phases>::staggerStrain(State& state, double dt)
     updateStress(state);
 }
 
+/// What the velocity of a point becomes at a corner of its cell, less what it is at the point [m/s].
+template <class Shape, int phases>
+std::array<double, 2> ExplicitStep<Shape, phases>::affineVelocity(const State& state, int p, int corner) const
+{
+    const MaterialPoints& points = state.points;
+    const double r = state.mesh.r[cellNodes_[corner]] - points.r[p];
+    const double z = state.mesh.z[cellNodes_[corner]] - points.z[p];
+    return {points.gradient[0][p] * r + points.gradient[1][p] * z,
+            points.gradient[2][p] * r + points.gradient[3][p] * z};
+}
+
 template <class Shape, int phases>
 void ExplicitStep<Shape, phases>::mapCellToNodes(State& state, int c)
 {
@@ -707,12 +718,6 @@ void ExplicitStep<Shape, phases>::mapCellToNodes(State& state, int c)
     double forceZ[corners] = {};
     Values values;
     const bool affine = points.affine();
-    double nodeR[corners] = {};
-    double nodeZ[corners] = {};
-    for (int k = 0; affine && k < corners; ++k) {
-        nodeR[k] = state.mesh.r[cellNodes_[c * corners + k]];
-        nodeZ[k] = state.mesh.z[cellNodes_[c * corners + k]];
-    }
     const auto addInertiaAndWeight = [&](int p) {
         const double m = twoPhase ? points.mass[p] * solidShare_[points.material[p]] : points.mass[p];
         const double mr = m * points.vr[p];
@@ -728,10 +733,9 @@ void ExplicitStep<Shape, phases>::mapCellToNodes(State& state, int c)
             forceZ[k] += values.N[k] * wz;
         }
         for (int k = 0; affine && k < corners; ++k) {
-            const double r = values.N[k] * m * (nodeR[k] - points.r[p]);
-            const double z = values.N[k] * m * (nodeZ[k] - points.z[p]);
-            momentumR[k] += points.gradient[0][p] * r + points.gradient[1][p] * z;
-            momentumZ[k] += points.gradient[2][p] * r + points.gradient[3][p] * z;
+            const auto [r, z] = affineVelocity(state, p, c * corners + k);
+            momentumR[k] += values.N[k] * m * r;
+            momentumZ[k] += values.N[k] * m * z;
         }
     };
 
@@ -1389,11 +1393,9 @@ void ExplicitStep<Shape, phases>::addRemappedMomentum(const State& state, int c)
             out[k].momentumZ += values.N[k] * m * points.vz[p];
         }
         for (int k = 0; points.affine() && k < corners; ++k) {
-            const int node = cellNodes_[c * corners + k];
-            const double r = values.N[k] * m * (state.mesh.r[node] - points.r[p]);
-            const double z = values.N[k] * m * (state.mesh.z[node] - points.z[p]);
-            out[k].momentumR += points.gradient[0][p] * r + points.gradient[1][p] * z;
-            out[k].momentumZ += points.gradient[2][p] * r + points.gradient[3][p] * z;
+            const auto [r, z] = affineVelocity(state, p, c * corners + k);
+            out[k].momentumR += values.N[k] * m * r;
+            out[k].momentumZ += values.N[k] * m * z;
         }
         if constexpr (twoPhase) {
             const double liquid = inertiaScale_[c] * fullness_[c] * porosity(points, p) *

@@ -80,11 +80,9 @@ void ExplicitStep<Shape, phases>::mapLiquidToNodes(const State& state, int c)
             sum[k].poreVolume += N * n * v;
         }
         for (int k = 0; points.affine() && k < corners; ++k) { // as of the solid
-            const int node = cellNodes_[c * corners + k];
-            const double r = values.N[k] * mass * (state.mesh.r[node] - points.r[p]);
-            const double z = values.N[k] * mass * (state.mesh.z[node] - points.z[p]);
-            sum[k].momentumR += points.gradient[0][p] * r + points.gradient[1][p] * z;
-            sum[k].momentumZ += points.gradient[2][p] * r + points.gradient[3][p] * z;
+            const auto [r, z] = affineVelocity(state, p, c * corners + k);
+            sum[k].momentumR += values.N[k] * mass * r;
+            sum[k].momentumZ += values.N[k] * mass * z;
         }
         volume += v;
         pressureVolume += v * pressure;

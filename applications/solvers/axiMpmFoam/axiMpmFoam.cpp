@@ -20,6 +20,7 @@
 namespace {
 
 using namespace caisson;
+
 /// Fixed steps are refused where they are longer than the stable one.
 void checkTimeStep(const RunTime& runTime, double deltaT, const StableStep& stable)
 {

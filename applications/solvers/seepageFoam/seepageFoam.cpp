@@ -26,6 +26,7 @@
 namespace {
 
 using namespace caisson;
+
 struct Controls
 {
     bool transient = false;
@@ -87,7 +88,7 @@ Figures readOff(const Seepage& seepage, const SeepageScene& setup, const State& 
         // storage.
         const double out = -whole * (std::isnan(setup.given[i]) ? setup.inflow[i] : inflow[i]);
         flow += out;
-        if (&flow == &figures.patchFlow && openPatches[i] >= 0) {
+        if (!setup.insideSurface[i] && !setup.outsideSurface[i] && openPatches[i] >= 0) {
             figures.flowOfPatch[openPatches[i]] += out;
         }
     }
