@@ -15,6 +15,10 @@ constexpr Keyword keywords[] = {
      "mixed: cells filled with soil with their own volume, others at their points; points: all at points"},
     {"volumetricLocking", "word", "automatic", "automatic none meanDilatation nodalAverage",
      "treatment of locking; automatic: meanDilatation on quadrilaterals, nodalAverage on triangles"},
+    {"femCells", "word", "none", "none automatic",
+     "automatic: cells well inside the soil are finite elements, whose points rest from sort to sort"},
+    {"femDistance", "integer", "6", "[1, 1000]",
+     "cells between an FEM cell and a body, a free surface or a partly filled cell"},
     {"velocityRemap", "word", "loose", "none loose all",
      "nodes whose velocity is mapped again from the points before strains are taken from it"},
     {"pressureCoupling", "word", "explicit", "explicit quasiSteady",
@@ -97,6 +101,9 @@ SolutionControls readSolutionControls(const Dictionary& mpmSolution, bool triang
                        "quasiSteady goes with phases 1: the soil is drained, and loaded by seepage",
                        "phases 1; or pressureCoupling explicit");
     }
+    controls.femCells = reader.word("femCells") == "automatic" ? SolutionControls::FemCells::automatic
+                                                               : SolutionControls::FemCells::none;
+    controls.femDistance = static_cast<int>(reader.integer("femDistance"));
     controls.seepageInterval = reader.number("seepageInterval");
     controls.seepageRamp = reader.number("seepageRamp");
     controls.seepageGate = reader.number("seepageGate");
@@ -109,6 +116,12 @@ SolutionControls readSolutionControls(const Dictionary& mpmSolution, bool triang
     if (controls.affine && controls.remap != SolutionControls::Remap::loose) {
         reader.problem("affine", "affine (APIC) is unstable without velocityRemap loose",
                        "velocityRemap loose;");
+    }
+    if (controls.femCells == SolutionControls::FemCells::automatic && !controls.mayHaveFemCells()) {
+        reader.problem("femCells",
+                       "FEM cells need integration mixed, a treatment of volumetricLocking, and other "
+                       "velocities than those of velocityRemap all or affine",
+                       "femCells none; or those settings");
     }
     controls.localDamping = reader.number("localDamping");
     controls.linearBulkViscosity = reader.number("linearBulkViscosity");

@@ -49,6 +49,47 @@ struct Moments
     double h[count][corners];  ///< of N/r (axisymmetric), 0 in plane strain
 };
 
+/// Gradient of a velocity over a filled cell, rr zz hoop rz zr (rz is dv_r/dz): its mean, and its slopes with
+/// xi - xiCentre and eta - etaCentre.
+template <int corners>
+using VelocityGradient = double[Moments<corners>::count][5];
+/// Stress over a filled cell, rr zz tt rz: its mean, and its slopes.
+template <int corners>
+using StressField = double[Moments<corners>::count][4];
+
+template <int corners>
+void velocityGradient(const Moments<corners>& m, const double* vr, const double* vz,
+                      VelocityGradient<corners>& gradient)
+{
+    const double inertia[3] = {1, m.inertiaXi, m.inertiaEta};
+    for (int i = 0; i < Moments<corners>::count; ++i) {
+        double g[5] = {};
+        for (int k = 0; k < corners; ++k) {
+            g[0] += m.gr[i][k] * vr[k];
+            g[1] += m.gz[i][k] * vz[k];
+            g[2] += m.h[i][k] * vr[k];
+            g[3] += m.gz[i][k] * vr[k];
+            g[4] += m.gr[i][k] * vz[k];
+        }
+        for (int j = 0; j < 5; ++j) {
+            gradient[i][j] = g[j] / inertia[i];
+        }
+    }
+}
+
+/// What the stress does to the corners.
+template <int corners>
+void addForces(const Moments<corners>& m, const StressField<corners>& stress, double* forceR, double* forceZ)
+{
+    for (int i = 0; i < Moments<corners>::count; ++i) {
+        const double* const s = stress[i];
+        for (int k = 0; k < corners; ++k) {
+            forceR[k] -= m.volume * (s[0] * m.gr[i][k] + s[3] * m.gz[i][k] + s[2] * m.h[i][k]);
+            forceZ[k] -= m.volume * (s[1] * m.gz[i][k] + s[3] * m.gr[i][k]);
+        }
+    }
+}
+
 /// Stable step of quadrilaterals: this share of the shorter side over the wave speed. The shortest wave of
 /// the nodes is partly lost on the way to the points and back; with the share phi that survives, the
 /// leap-frog of the rest is stable for omega dt < 2/sqrt(2 - phi), which is 0.707 h/c at worst (phi = 0) and
@@ -181,8 +222,88 @@ struct Rectangle
         return m;
     }
 
+    /// A velocity is a0 + a1 xi + a2 eta + a3 xi eta; the moments of that in closed form.
+    static void velocityGradient(const Cell& c, const double* vr, const double* vz, VelocityGradient<4>& g)
+    {
+        const Weights w(c);
+        const auto [a0, a1, a2, a3] = modes(vr);
+        const auto [b0, b1, b2, b3] = modes(vz);
+        const double twoR = 2 * c.invDr;
+        const double twoZ = 2 * c.invDz;
+        g[0][0] = twoR * a1;
+        g[0][1] = twoZ * (b2 + w.xiCentre * b3);
+        g[0][2] = w.inverseR * a0;
+        g[0][3] = twoZ * (a2 + w.xiCentre * a3);
+        g[0][4] = twoR * b1;
+        g[1][0] = 0;
+        g[1][1] = twoZ * b3;
+        g[1][2] = w.inverseR * (a1 / 3 - w.xiCentre * a0) / w.inertiaXi;
+        g[1][3] = twoZ * a3;
+        g[1][4] = 0;
+        g[2][0] = twoR * a3;
+        g[2][1] = 0;
+        g[2][2] = w.inverseR * a2;
+        g[2][3] = 0;
+        g[2][4] = twoR * b3;
+    }
+
+    /// Adjoint of velocityGradient.
+    static void addForces(const Cell& c, const StressField<4>& s, double* forceR, double* forceZ)
+    {
+        const Weights w(c);
+        const double quarter = 0.25 * c.dr * c.dz * (axisymmetric ? c.r0 + 0.5 * c.dr : 1.0);
+        const double twoR = 2 * c.invDr;
+        const double twoZ = 2 * c.invDz;
+        const double ofXi = w.xiCentre;
+        addModes(quarter,
+                 {w.inverseR * (s[0][2] - ofXi * s[1][2]), twoR * s[0][0] + w.inverseR * s[1][2] / 3,
+                  twoZ * s[0][3] + w.inverseR * s[2][2] / 3,
+                  twoZ * (ofXi * s[0][3] + w.inertiaXi * s[1][3]) + twoR * s[2][0] / 3},
+                 forceR);
+        addModes(quarter,
+                 {0, twoR * s[0][3], twoZ * s[0][1],
+                  twoZ * (ofXi * s[0][1] + w.inertiaXi * s[1][1]) + twoR * s[2][3] / 3},
+                 forceZ);
+    }
+
+    /// Whether the corners are those of the cell.
+    static bool isAt(const Cell& c, const double* r, const double* z)
+    {
+        return r[0] == c.r0 && z[0] == c.z0 && r[2] - r[0] == c.dr && z[2] - z[0] == c.dz;
+    }
+
     /// Extent used for the stable step [m]: see quadrilateralStep.
     static double size(const Cell& c) { return quadrilateralStep * std::min(c.dr, c.dz); }
+
+private:
+    /// Of the integrals over a cell with the weight r.
+    struct Weights
+    {
+        explicit Weights(const Cell& c)
+            : inverseR(axisymmetric ? 1 / (c.r0 + 0.5 * c.dr) : 0.0), xiCentre(c.dr / 6 * inverseR),
+              inertiaXi(1.0 / 3 - xiCentre * xiCentre)
+        {
+        }
+        double inverseR, xiCentre, inertiaXi;
+    };
+
+    static std::array<double, 4> modes(const double* v)
+    {
+        const double lower = v[0] + v[1];
+        const double upper = v[3] + v[2];
+        const double lowerSlope = v[1] - v[0];
+        const double upperSlope = v[2] - v[3];
+        return {0.25 * (upper + lower), 0.25 * (upperSlope + lowerSlope), 0.25 * (upper - lower),
+                0.25 * (upperSlope - lowerSlope)};
+    }
+
+    static void addModes(double factor, const std::array<double, 4>& a, double* force)
+    {
+        force[0] -= factor * (a[0] - a[1] - a[2] + a[3]);
+        force[1] -= factor * (a[0] + a[1] - a[2] - a[3]);
+        force[2] -= factor * (a[0] + a[1] + a[2] + a[3]);
+        force[3] -= factor * (a[0] - a[1] + a[2] - a[3]);
+    }
 };
 
 /// General convex quadrilateral, corners counter-clockwise, bilinear map. Integrals by 2 x 2 Gauss points,
@@ -293,6 +414,15 @@ struct Quadrilateral
     static std::array<double, 2> heightSlopes(const Cell& c) { return {c.az, c.bz}; }
 
     static const Moments<4>& moments(const Cell& cell) { return cell.moments; }
+
+    static void velocityGradient(const Cell& c, const double* vr, const double* vz, VelocityGradient<4>& g)
+    {
+        shapes::velocityGradient(c.moments, vr, vz, g);
+    }
+    static void addForces(const Cell& c, const StressField<4>& s, double* forceR, double* forceZ)
+    {
+        shapes::addForces(c.moments, s, forceR, forceZ);
+    }
 
     static double size(const Cell& c) { return c.size; }
 
@@ -436,6 +566,15 @@ struct Triangle
             m.h[0][k] = axisymmetric ? 1 / (3 * centroid) : 0; // integral of N is A/3
         }
         return m;
+    }
+
+    static void velocityGradient(const Cell& c, const double* vr, const double* vz, VelocityGradient<3>& g)
+    {
+        shapes::velocityGradient(moments(c), vr, vz, g);
+    }
+    static void addForces(const Cell& c, const StressField<3>& s, double* forceR, double* forceZ)
+    {
+        shapes::addForces(moments(c), s, forceR, forceZ);
     }
 
     static double size(const Cell& c)

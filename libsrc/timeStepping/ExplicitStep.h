@@ -42,6 +42,8 @@ private:
     using Values = shapes::Values<corners>;
     using Dilatation = shapes::MeanDilatation<corners>;
 
+    static constexpr int momentCount = shapes::Moments<corners>::count;
+
     /// What the points of one cell add to one of its corners.
     struct Corner
     {
@@ -90,6 +92,37 @@ private:
         double pressure; ///< mean excess pore pressure round the node [Pa]
     };
 
+    /// A cell whose points rest (FemKernels.h). Its mean stress stands in femStress_.
+    struct FemCell
+    {
+        int material;
+        bool restedBefore;              ///< so its nodes have their velocities already
+        double mass[corners];           ///< of the solid, of the whole cell, not scaled
+        double slopeXi[4], slopeEta[4]; ///< of the stress [Pa]
+        double shareXi, shareEta;       ///< of the slopes at the points that the cell has (kernels::Spread)
+        double stressBefore[4];         ///< mean stress before the last step [Pa]
+        shapes::VelocityGradient<corners> strain; ///< since the points rest: that times time
+        double dilatation;                        ///< since the points rest
+    };
+
+    /// The liquid of such a cell.
+    struct FemLiquidCell
+    {
+        double mass[corners], drag[corners], volume[corners], poreVolume[corners]; ///< as in LiquidCorner
+        double pressure; ///< mean excess pore pressure [Pa]
+        double porosity; ///< mean
+    };
+
+    /// What has happened at a node of such cells since their points rest.
+    struct FemNode
+    {
+        double placeR = 0, placeZ = 0;       ///< displacement of the points [m]
+        double dvr = 0, dvz = 0;             ///< change of velocity [m/s]
+        double relativeR = 0, relativeZ = 0; ///< of the relative velocity of the liquid [m/s]
+        double keep = 1;                     ///< share of a relative velocity that drag has left
+        double mayMove = std::numeric_limits<double>::max(); ///< the points, before they must catch up [m]
+    };
+
     /// work(cell) for all active cells, or work(node) for all active nodes, on all threads.
     template <class Work>
     void forCells(const Work& work) const
@@ -112,7 +145,7 @@ private:
     }
 
     void updateCells(const State& state);
-    void divideCells(const State& state);
+    void divideCells();
     void classifyCells(State& state);
     void moveBodies(State& state, double dt);
     void meanPressures(const State& state, std::vector<double>& cellPressure) const;
@@ -121,6 +154,7 @@ private:
     void staggerStrain(State& state, double dt);
     void mapToNodes(State& state);
     void mapCellToNodes(State& state, int c);
+    [[nodiscard]] double viscousStress(const State& state, int c, int material) const;
     void addPointLoads(const State& state, int c);
     void solveNodes(State& state, double dt);
     void findFreeSurfaces(const State& state);
@@ -153,9 +187,23 @@ private:
     void mapCellToPoints(State& state, double dt, int c);
     void addRemappedMomentum(const State& state, int c);
     [[nodiscard]] std::array<double, 2> affineVelocity(const State& state, int p, int corner) const;
-    void updateStress(State& state);
+    void updateStress(State& state, bool resting);
+    template <class Work>
+    void inBlocks(int first, int last, int part, const Work& work) const;
+    [[nodiscard]] bool resting(int c) const { return !femOf_.empty() && femOf_[c] >= 0; }
+    [[nodiscard]] bool mayRest(const State& state, int c, double interval) const;
+    void chooseFemCells(const State& state);
+    void mapFemCellToNodes(const State& state, int c);
+    void keepFemMomentum(int c);
+    [[nodiscard]] double tangentShare(int f);
+    void strainFemCell(State& state, double dt, int c);
+    void updateFemStress();
+    void accumulateFemNodes(double dt);
+    void wakeFemCells(State& state);
+    void wakeFemCell(State& state, int c);
     void moveBodiesAndMesh(State& state, double dt);
-    void relocate(State& state);
+    void relocate(State& state, bool sorts);
+    void sortPoints(State& state);
     [[nodiscard]] int cellOfMoved(State& state, int p, int c) const;
     void scaleInertia(const State& state);
     [[nodiscard]] double waveStep(const State& state, int c) const;
@@ -230,6 +278,21 @@ private:
     mutable std::vector<double> ofNodes_; ///< of averageOverNodes
     std::array<std::vector<double>, 4> strain_; ///< increments of the step, per point
     std::vector<double> spin_;
+    // Cells whose points rest; empty where none may.
+    std::vector<int> femOf_;           ///< per cell: index of its FemCell, or -1
+    std::vector<unsigned char> rests_; ///< per cell: is one
+    std::vector<FemCell> femCells_;
+    std::vector<FemLiquidCell> femLiquidCells_;
+    std::vector<unsigned char> restless_;  ///< per thread: points have moved too far to rest on
+    std::vector<FemNode> femNodes_;        ///< per node
+    std::vector<int> nodesOfFem_;          ///< nodes of FEM cells
+    std::vector<PointCells::Run> femRuns_; ///< FEM cells of one material
+    std::array<std::vector<double>, 4> femStress_, femStrain_;
+    std::vector<double> femSpin_;
+    std::vector<std::vector<double>> femState_; ///< variables of the laws, [variable][FEM cell]
+    std::vector<double> shearModulus_;          ///< per material [Pa]
+    long femSteps_ = 0;                         ///< steps that the points rest already
+    double femFlip_ = 1;                        ///< share of the FLIP velocity that these steps leave
     CellLocator locator_;
 };
 

@@ -117,6 +117,7 @@ ExplicitStep<Shape, phases>::ExplicitStep(const Scene& scene, State& state)
                                      ? kernels::largestExpansion / material.inertialDensity()
                                      : std::numeric_limits<double>::max());
         gravityShare_.push_back(material.weighingDensity() / material.inertialDensity());
+        shearModulus_.push_back(material.law->shearModulus());
         waveSpeed_.push_back(twoPhase ? kernels::fastWave(material)
                                       : std::sqrt(material.law->pWaveModulus() / material.inertialDensity()));
         solidShare_.push_back(
@@ -156,6 +157,7 @@ ExplicitStep<Shape, phases>::ExplicitStep(const Scene& scene, State& state)
         component.resize(scene.controls.affine ? state.points.size() : 0, 0);
     }
     pointCentre_.resize(cells);
+    restless_.resize(threads_.count());
     cornerSums_.resize(cells * corners);
     nodes_.resize(mesh.nodes());
     looseNode_.resize(mesh.nodes());
@@ -217,10 +219,25 @@ ExplicitStep<Shape, phases>::ExplicitStep(const Scene& scene, State& state)
 template <class Shape, int phases>
 void ExplicitStep<Shape, phases>::rebuild(State& state)
 {
+    if (femSteps_ > 0) {
+        wakeFemCells(state);
+        relocate(state, false);
+    }
+    rests_.clear();
     pointCells_.sort(state.points, state.mesh.cells());
     occupancyChanged_ = true;
     classifyCells(state);
     scaleInertia(state);
+    sortPoints(state);
+}
+
+/// Sorts the points, and lets those rest whose cells allow it, until the next time.
+template <class Shape, int phases>
+void ExplicitStep<Shape, phases>::sortPoints(State& state)
+{
+    chooseFemCells(state);
+    pointCells_.sort(state.points, state.mesh.cells(), rests_);
+    divideCells();
 }
 
 template <class Shape, int phases>
@@ -248,10 +265,12 @@ void ExplicitStep<Shape, phases>::updateCells(const State& state)
 
 /// Active cells of all parts, with about as many points in each.
 template <class Shape, int phases>
-void ExplicitStep<Shape, phases>::divideCells(const State& state)
+void ExplicitStep<Shape, phases>::divideCells()
 {
-    const std::size_t items = state.points.size() + activeCells_.size();
-    const auto total = static_cast<long long>(items);
+    long long total = 0;
+    for (const int c : activeCells_) {
+        total += (resting(c) ? 1 : pointCells_.count(c)) + 1;
+    }
     const int threads = threads_.count();
     long long sum = 0;
     int part = 1;
@@ -259,7 +278,7 @@ void ExplicitStep<Shape, phases>::divideCells(const State& state)
         for (; part < threads && sum * threads >= total * part; ++part) {
             cellPart_[part] = static_cast<int>(i);
         }
-        sum += pointCells_.count(activeCells_[i]) + 1;
+        sum += (resting(activeCells_[i]) ? 1 : pointCells_.count(activeCells_[i])) + 1;
     }
     for (; part <= threads; ++part) {
         cellPart_[part] = static_cast<int>(activeCells_.size());
@@ -332,10 +351,13 @@ void ExplicitStep<Shape, phases>::classifyCells(State& state)
         }
     }
     if (sorted) {
-        divideCells(state);
+        divideCells();
     }
     const bool mixed = scene_.controls.integration == SolutionControls::Integration::mixed;
     forCells([&](int c) {
+        if (resting(c)) {
+            return;
+        }
         bool filled = mixed && !bySurface_[c];
         if (filled) {
             double volume = 0;
@@ -448,6 +470,8 @@ CellCounts ExplicitStep<Shape, phases>::cellCounts(const State& state) const
             ++counts.inside;
         } else if (!occupied_[c]) {
             ++counts.empty;
+        } else if (resting(static_cast<int>(c))) {
+            ++counts.fem;
         } else if (state.filled[c]) {
             ++counts.filled;
         } else {
@@ -472,6 +496,7 @@ std::string ExplicitStep<Shape, phases>::description() const
     words += controls.locking == SolutionControls::Locking::none             ? ""
              : controls.locking == SolutionControls::Locking::meanDilatation ? ", mean dilatation"
                                                                              : ", nodal dilatation";
+    words += controls.mayHaveFemCells() ? ", FEM cells" : "";
 #if defined(__AVX512F__)
     words += ", AVX-512";
 #elif defined(__AVX2__)
@@ -508,15 +533,23 @@ void ExplicitStep<Shape, phases>::advance(State& state, double dt)
     for (std::size_t b = 0; b < state.bodies.size(); ++b) {
         state.reactions[b].force = (state.reactions[b].totalVerticalImpulse() - impulseBefore_[b]) / dt;
     }
+    accumulateFemNodes(dt);
     mapToPoints(state, dt);
     if constexpr (twoPhase) {
         if (scene_.controls.checkerboardFilter > 0 && state.step % filterInterval == 0) {
             filterPressures(state);
         }
     }
-    updateStress(state);
+    updateStress(state, false);
+    updateFemStress();
+    const int sortInterval = scene_.controls.sortInterval;
+    const bool sorts = (sortInterval > 0 && (state.step + 1) % sortInterval == 0) ||
+                       std::ranges::any_of(restless_, [](unsigned char is) { return is != 0; });
+    if (sorts) {
+        wakeFemCells(state);
+    }
     moveBodiesAndMesh(state, dt);
-    relocate(state);
+    relocate(state, sorts);
     state.time += dt;
     state.timeStep = dt;
     ++state.step;
@@ -673,7 +706,8 @@ void ExplicitStep<Shape, phases>::staggerStrain(State& state, double dt)
         averageDilatationAtNodes();
     }
     forCells([&](int c) { mapCellToPoints<false, true>(state, 0.5 * dt, c); });
-    updateStress(state);
+    updateStress(state, false);
+    updateStress(state, true);
 }
 
 /// What the velocity of a point becomes at a corner of its cell, less what it is at the point [m/s].
@@ -687,6 +721,25 @@ std::array<double, 2> ExplicitStep<Shape, phases>::affineVelocity(const State& s
             points.gradient[2][p] * r + points.gradient[3][p] * z};
 }
 
+/// Bulk viscosity [von Neumann & Richtmyer 1950], with Landshoff's linear term; the quadratic one in
+/// compression only [Pa].
+template <class Shape, int phases>
+double ExplicitStep<Shape, phases>::viscousStress(const State& state, int c, int material) const
+{
+    const SolutionControls& controls = scene_.controls;
+    if (controls.linearBulkViscosity == 0 && controls.quadraticBulkViscosity == 0) {
+        return 0;
+    }
+    const double rate = state.cellDivergence[c];
+    const double size = Shape::size(cells_[c]);
+    double stress = density_[material] * size * controls.linearBulkViscosity * waveSpeed_[material] * rate;
+    if (rate < 0) {
+        const double quadratic = controls.quadraticBulkViscosity * size * rate;
+        stress -= density_[material] * quadratic * quadratic;
+    }
+    return stress;
+}
+
 template <class Shape, int phases>
 void ExplicitStep<Shape, phases>::mapCellToNodes(State& state, int c)
 {
@@ -696,21 +749,7 @@ void ExplicitStep<Shape, phases>::mapCellToNodes(State& state, int c)
     const int* const first = pointCells_.begin(c);
     const int* const last = pointCells_.end(c);
 
-    double viscousStress = 0;
-    if (scene_.controls.linearBulkViscosity > 0 || scene_.controls.quadraticBulkViscosity > 0) {
-        // von Neumann & Richtmyer 1950, with Landshoff's linear term; the quadratic one in compression only.
-        const int material = points.material[*first];
-        const double rate = state.cellDivergence[c];
-        const double size = Shape::size(cell);
-        viscousStress =
-            density_[material] * size * scene_.controls.linearBulkViscosity * waveSpeed_[material] * rate;
-        if (rate < 0) {
-            const double quadratic = scene_.controls.quadraticBulkViscosity * size * rate;
-            viscousStress -= density_[material] * quadratic * quadratic;
-        }
-    }
-
-    const auto& moments = Shape::moments(cell);
+    const double viscousStress = this->viscousStress(state, c, points.material[*first]);
     double mass[corners] = {};
     double momentumR[corners] = {};
     double momentumZ[corners] = {};
@@ -768,24 +807,20 @@ void ExplicitStep<Shape, phases>::mapCellToNodes(State& state, int c)
             }
         }
         const double inverse = 1 / w;
-        fullness_[c] = moments.volume * inverse;
+        fullness_[c] = dilatation_[c].volume * inverse;
         for (int k = 0; k < corners; ++k) {
             forceR[k] *= fullness_[c];
             forceZ[k] *= fullness_[c];
         }
-        double stress[4]; // mean
+        shapes::StressField<corners> field;
+        double(&stress)[4] = field[0]; // mean
         for (int j = 0; j < 4; ++j) {
             stress[j] = s[j] * inverse + (j < 3 ? viscousStress : 0);
         }
-        const auto addForces = [&](int moment, const double(&sigma)[4]) {
-            for (int k = 0; k < corners; ++k) {
-                forceR[k] -=
-                    moments.volume * (sigma[0] * moments.gr[moment][k] + sigma[3] * moments.gz[moment][k] +
-                                      sigma[2] * moments.h[moment][k]);
-                forceZ[k] -=
-                    moments.volume * (sigma[1] * moments.gz[moment][k] + sigma[3] * moments.gr[moment][k]);
-            }
-        };
+        FemCell* const fem = resting(c) ? &femCells_[femOf_[c]] : nullptr;
+        for (int k = 0; fem && k < corners; ++k) {
+            fem->mass[k] = fullness_[c] * mass[k];
+        }
         if constexpr (corners == 4) {
             // What varies over a cell at rest is known from its weight, wherever the points are: only the
             // rest is taken from them.
@@ -801,8 +836,8 @@ void ExplicitStep<Shape, phases>::mapCellToNodes(State& state, int c)
             const double y = wy * inverse;
             pointCentre_[c] = {x, y};
             const kernels::Spread spread(wxx * inverse - x * x, wyy * inverse - y * y, wxy * inverse - x * y);
-            double slopeXi[4];
-            double slopeEta[4];
+            double(&slopeXi)[4] = field[1];
+            double(&slopeEta)[4] = field[2];
             for (int j = 0; j < 4; ++j) {
                 const double knownXi = known[j] * riseXi;
                 const double knownEta = known[j] * riseEta;
@@ -821,10 +856,17 @@ void ExplicitStep<Shape, phases>::mapCellToNodes(State& state, int c)
                     slopeEta[j] -= dy;
                 }
             }
-            addForces(1, slopeXi);
-            addForces(2, slopeEta);
+            if (fem) {
+                fem->shareXi = spread.xx / (spread.xx + kernels::Spread::ridge);
+                fem->shareEta = spread.yy / (spread.yy + kernels::Spread::ridge);
+                std::copy_n(slopeXi, 4, fem->slopeXi);
+                std::copy_n(slopeEta, 4, fem->slopeEta);
+            }
         }
-        addForces(0, stress);
+        Shape::addForces(cell, field, forceR, forceZ);
+        for (int j = 0; fem && j < 4; ++j) {
+            femStress_[j][femOf_[c]] = stress[j] - (j < 3 ? viscousStress : 0);
+        }
     } else {
         fullness_[c] = 1;
         double br[corners] = {};
@@ -868,6 +910,13 @@ void ExplicitStep<Shape, phases>::mapCellToNodes(State& state, int c)
         }
     }
 
+    if (resting(c) && femCells_[femOf_[c]].restedBefore) {
+        for (int k = 0; k < corners; ++k) {
+            momentumR[k] = mass[k] * nodes_[cellNodes_[c * corners + k]].vr;
+            momentumZ[k] = mass[k] * nodes_[cellNodes_[c * corners + k]].vz;
+        }
+    }
+    const auto& moments = Shape::moments(cell);
     const double inertia = inertiaScale_[c] * fullness_[c];
     const double fullMass = inertiaScale_[c] * density_[points.material[*first]] *
                             (twoPhase ? solidShare_[points.material[*first]] : 1.0) * moments.volume;
@@ -913,6 +962,10 @@ void ExplicitStep<Shape, phases>::mapToNodes(State& state)
         pointTraction_[l] = scene_.pointLoads[l].traction(state.time, loadedArea_[l]);
     }
     forCells([&](int c) {
+        if (femSteps_ > 0 && resting(c)) {
+            mapFemCellToNodes(state, c);
+            return;
+        }
         mapCellToNodes(state, c);
         if constexpr (twoPhase) {
             mapLiquidToNodes(state, c);
@@ -1164,7 +1217,7 @@ void ExplicitStep<Shape, phases>::mapCellToPoints(State& state, double dt, int c
     double liquidGradient[3] = {};
     // Filled cells: mean and slopes of the velocity gradient (rr, zz, hoop, v_r,z, v_z,r) about the points'
     // centre.
-    double gradient[3][5] = {};
+    shapes::VelocityGradient<corners> gradient = {};
     double centreXi = 0;
     double centreEta = 0;
     const bool filled = state.filled[c] != 0;
@@ -1174,34 +1227,22 @@ void ExplicitStep<Shape, phases>::mapCellToPoints(State& state, double dt, int c
             liquidRate = twoPhase ? cellLiquidRate_[c] : 0;
         }
         if (filled) {
-            const auto& m = Shape::moments(cell);
-            for (int moment = 0; moment < shapes::Moments<corners>::count; ++moment) {
-                double* const g = gradient[moment];
-                for (int k = 0; k < corners; ++k) {
-                    g[0] += m.gr[moment][k] * vr[k];
-                    g[1] += m.gz[moment][k] * vz[k];
-                    g[2] += m.h[moment][k] * vr[k];
-                    g[3] += m.gz[moment][k] * vr[k];
-                    g[4] += m.gr[moment][k] * vz[k];
-                }
-                if constexpr (twoPhase) {
+            Shape::velocityGradient(cell, vr, vz, gradient);
+            if constexpr (twoPhase) {
+                const auto& m = Shape::moments(cell);
+                for (int i = 0; i < momentCount; ++i) {
                     for (int k = 0; k < corners; ++k) {
-                        liquidGradient[moment] +=
-                            (m.gr[moment][k] + m.h[moment][k]) * wr[k] + m.gz[moment][k] * wz[k];
+                        liquidGradient[i] += (m.gr[i][k] + m.h[i][k]) * wr[k] + m.gz[i][k] * wz[k];
                     }
                 }
+                liquidGradient[1] /= m.inertiaXi;
+                liquidGradient[2] /= m.inertiaEta;
             }
             if (!nodalAverage) {
                 rate = gradient[0][0] + gradient[0][1] + gradient[0][2];
                 liquidRate = liquidGradient[0];
             }
             if constexpr (corners == 4) {
-                for (int j = 0; j < 5; ++j) {
-                    gradient[1][j] /= m.inertiaXi;
-                    gradient[2][j] /= m.inertiaEta;
-                }
-                liquidGradient[1] /= m.inertiaXi;
-                liquidGradient[2] /= m.inertiaEta;
                 centreXi = pointCentre_[c][0];
                 centreEta = pointCentre_[c][1];
             }
@@ -1247,7 +1288,10 @@ void ExplicitStep<Shape, phases>::mapCellToPoints(State& state, double dt, int c
                 const double x = xi - centreXi;
                 const double y = eta - centreEta;
                 const auto at = [&](int j) {
-                    return gradient[0][j] + x * gradient[1][j] + y * gradient[2][j];
+                    if constexpr (corners == 4) {
+                        return gradient[0][j] + x * gradient[1][j] + y * gradient[2][j];
+                    }
+                    return gradient[0][j];
                 };
                 rr = at(0);
                 zz = at(1);
@@ -1473,7 +1517,9 @@ void ExplicitStep<Shape, phases>::mapToPoints(State& state, double dt)
     const bool remapAll = controls.remap == SolutionControls::Remap::all;
     const bool remapSome = controls.remap == SolutionControls::Remap::loose;
     const bool nodalAverage = controls.locking == SolutionControls::Locking::nodalAverage;
-    const auto later = [&](int c) { return remapAll || nodalAverage || (remapSome && byLoose_[c]); };
+    const auto later = [&](int c) {
+        return !resting(c) && (remapAll || nodalAverage || (remapSome && byLoose_[c]));
+    };
     const auto remaps = [&](int c) { return remapAll || (remapSome && byLoose_[c]); };
 
     forCells([&](int c) {
@@ -1487,7 +1533,11 @@ void ExplicitStep<Shape, phases>::mapToPoints(State& state, double dt)
             mapCellToPoints<true, false>(state, dt, c);
         }
         if (remaps(c)) {
-            addRemappedMomentum(state, c);
+            if (resting(c)) {
+                keepFemMomentum(c);
+            } else {
+                addRemappedMomentum(state, c);
+            }
         }
     });
     if (remapAll || remapSome) {
@@ -1526,7 +1576,9 @@ void ExplicitStep<Shape, phases>::mapToPoints(State& state, double dt)
         averageDilatationAtNodes();
     }
     forCells([&](int c) {
-        if (later(c)) {
+        if (resting(c)) {
+            strainFemCell(state, dt, c);
+        } else if (later(c)) {
             mapCellToPoints<false, true>(state, dt, c);
         } else {
             mapCellToPoints<true, true>(state, dt, c);
@@ -1534,34 +1586,47 @@ void ExplicitStep<Shape, phases>::mapToPoints(State& state, double dt)
     });
 }
 
+/// work(begin, end) for this thread's part of what lies from `first` on to before `last`. Loops that the
+/// compiler makes work on vectors round what is left over in another way: parts that start at a multiple of
+/// any vector's length give the bits of the whole.
 template <class Shape, int phases>
-void ExplicitStep<Shape, phases>::updateStress(State& state)
+template <class Work>
+void ExplicitStep<Shape, phases>::inBlocks(int first, int last, int part, const Work& work) const
 {
-    // Laws work on vectors of points: parts that start at a multiple of any vector's length give the bits of
-    // the whole.
     constexpr int block = 256;
+    const int blocks = (last - first + block - 1) / block;
+    const int begin = first + block * threads_.first(blocks, part);
+    const int end = std::min(last, first + block * threads_.first(blocks, part + 1));
+    if (end > begin) {
+        work(begin, end);
+    }
+}
+
+/// Of the points in cells that rest, or of those in all others.
+template <class Shape, int phases>
+void ExplicitStep<Shape, phases>::updateStress(State& state, bool resting)
+{
     MaterialPoints& points = state.points;
     threads_.run([&](int part) {
         std::vector<double*>& pointers = statePointers_[part];
         for (const PointCells::Run& run : pointCells_.runs()) {
-            const int blocks = (run.end - run.begin + block - 1) / block;
-            const int begin = run.begin + block * threads_.first(blocks, part);
-            const int end = std::min(run.end, run.begin + block * threads_.first(blocks, part + 1));
-            StressBatch batch;
-            batch.size = end - begin;
-            if (batch.size <= 0) {
+            if (run.rests != resting) {
                 continue;
             }
-            for (int j = 0; j < 4; ++j) {
-                batch.strain[j] = strain_[j].data() + begin;
-                batch.stress[j] = points.stress[j].data() + begin;
-            }
-            batch.spin = spin_.data() + begin;
-            for (std::size_t k = 0; k < points.state.size(); ++k) {
-                pointers[k] = points.state[k].data() + begin;
-            }
-            batch.state = &pointers;
-            scene_.materials[run.material].law->update(batch);
+            inBlocks(run.begin, run.end, part, [&](int begin, int end) {
+                StressBatch batch;
+                batch.size = end - begin;
+                for (int j = 0; j < 4; ++j) {
+                    batch.strain[j] = strain_[j].data() + begin;
+                    batch.stress[j] = points.stress[j].data() + begin;
+                }
+                batch.spin = spin_.data() + begin;
+                for (std::size_t k = 0; k < points.state.size(); ++k) {
+                    pointers[k] = points.state[k].data() + begin;
+                }
+                batch.state = &pointers;
+                scene_.materials[run.material].law->update(batch);
+            });
         }
     });
 }
@@ -1580,43 +1645,42 @@ void ExplicitStep<Shape, phases>::moveBodiesAndMesh(State& state, double dt)
 }
 
 template <class Shape, int phases>
-void ExplicitStep<Shape, phases>::relocate(State& state)
+void ExplicitStep<Shape, phases>::relocate(State& state, bool sorts)
 {
     MaterialPoints& points = state.points;
     threads_.run([&](int part) {
         movers_[part].clear();
         for (int j = cellPart_[part]; j < cellPart_[part + 1]; ++j) {
             const int c = activeCells_[j];
+            if (resting(c)) {
+                continue;
+            }
             for (const int* i = pointCells_.begin(c); i != pointCells_.end(c); ++i) {
                 if (Shape::contains(cells_[c], points.r[*i], points.z[*i])) {
                     continue;
                 }
                 const int found = cellOfMoved(state, *i, c);
-                if (found != c) {
+                if (found != c && !resting(found)) { // a cell at rest takes nobody in
                     points.cell[*i] = found;
                     movers_[part].push_back({*i, c});
                 }
             }
         }
     });
-    const bool sorts =
-        scene_.controls.sortInterval > 0 && (state.step + 1) % scene_.controls.sortInterval == 0;
-    for (const auto& movers : movers_) {
-        if (!sorts) {
-            pointCells_.move(points, movers);
-        }
+    // All at once: an index that is built anew knows every new cell.
+    std::vector<PointCells::Mover>& movers = movers_.front();
+    for (std::size_t part = 1; part < movers_.size(); ++part) {
+        movers.insert(movers.end(), movers_[part].begin(), movers_[part].end());
     }
-    if (sorts) {
-        pointCells_.sort(points, state.mesh.cells());
-        divideCells(state);
-    }
-    for (const auto& movers : movers_) {
-        for (const auto& [point, from] : movers) {
-            occupancyChanged_ =
-                occupancyChanged_ || pointCells_.count(from) == 0 || !occupied_[points.cell[point]];
-        }
+    pointCells_.move(points, movers);
+    for (const auto& [point, from] : movers) {
+        occupancyChanged_ =
+            occupancyChanged_ || pointCells_.count(from) == 0 || !occupied_[points.cell[point]];
     }
     classifyCells(state);
+    if (sorts) {
+        sortPoints(state);
+    }
 }
 
 /// Cell that now holds a point of cell c; pushes it out of a body's wall.

@@ -162,6 +162,13 @@ void ExplicitStep<Shape, phases>::mapLiquidToNodes(const State& state, int c)
             }
         }
     }
+    if (resting(c) && femCells_[femOf_[c]].restedBefore) {
+        for (int k = 0; k < corners; ++k) {
+            const int i = cellNodes_[c * corners + k];
+            sum[k].momentumR = sum[k].mass * (nodes_[i].vr + liquidNodes_[i].relativeVr);
+            sum[k].momentumZ = sum[k].mass * (nodes_[i].vz + liquidNodes_[i].relativeVz);
+        }
+    }
     LiquidCorner* const out = &liquidCorners_[c * corners];
     for (int k = 0; k < corners; ++k) {
         out[k] = sum[k];
@@ -170,6 +177,21 @@ void ExplicitStep<Shape, phases>::mapLiquidToNodes(const State& state, int c)
         out[k].momentumR *= inertia;
         out[k].momentumZ *= inertia;
         out[k].drag *= fullness_[c];
+    }
+    if (resting(c)) {
+        FemLiquidCell& fem = femLiquidCells_[femOf_[c]];
+        double poreVolume = 0;
+        double wholeVolume = 0;
+        for (int k = 0; k < corners; ++k) {
+            fem.mass[k] = fullness_[c] * sum[k].mass;
+            fem.drag[k] = fullness_[c] * sum[k].drag;
+            fem.volume[k] = sum[k].volume;
+            fem.poreVolume[k] = sum[k].poreVolume;
+            poreVolume += sum[k].poreVolume;
+            wholeVolume += sum[k].volume;
+        }
+        fem.pressure = mean;
+        fem.porosity = poreVolume / wholeVolume;
     }
 }
 
@@ -448,6 +470,10 @@ void ExplicitStep<Shape, phases>::meanPressures(const State& state, std::vector<
     const MaterialPoints& points = state.points;
     cellPressure.resize(cells_.size());
     forCells([&](int c) {
+        if (resting(c) && femSteps_ > 0) {
+            cellPressure[c] = femLiquidCells_[femOf_[c]].pressure;
+            return;
+        }
         double volume = 0;
         double sum = 0;
         for (const int* i = pointCells_.begin(c); i != pointCells_.end(c); ++i) {
@@ -479,6 +505,10 @@ void ExplicitStep<Shape, phases>::filterPressures(State& state)
             return;
         }
         const double change = share * cellPressure_[c];
+        if (resting(c)) {
+            femLiquidCells_[femOf_[c]].pressure -= change;
+            return;
+        }
         for (const int* i = pointCells_.begin(c); i != pointCells_.end(c); ++i) {
             state.points.porePressure[*i] -= change;
         }

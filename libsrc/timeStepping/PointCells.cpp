@@ -4,18 +4,23 @@
 
 namespace caisson {
 
-void PointCells::sort(MaterialPoints& points, int cells)
+void PointCells::sort(MaterialPoints& points, int cells, std::span<const unsigned char> rests)
 {
     index(points, cells);
     std::vector<int> order;
     order.reserve(points.size());
-    for (int c = 0; c < cells; ++c) {
-        order.insert(order.end(), begin(c), end(c));
-        std::sort(order.end() - count(c), order.end(),
-                  [&points](int a, int b) { return points.id[a] < points.id[b]; });
+    for (const bool resting : {false, true}) {
+        for (int c = 0; c < cells; ++c) {
+            if (resting != (!rests.empty() && rests[c] != 0)) {
+                continue;
+            }
+            order.insert(order.end(), begin(c), end(c));
+            std::sort(order.end() - count(c), order.end(),
+                      [&points](int a, int b) { return points.id[a] < points.id[b]; });
+        }
     }
     points.reorder(order);
-    findRuns(points);
+    findRuns(points, rests);
     index(points, cells);
 }
 
@@ -61,12 +66,13 @@ void PointCells::move(const MaterialPoints& points, std::span<const Mover> mover
     }
 }
 
-void PointCells::findRuns(const MaterialPoints& points)
+void PointCells::findRuns(const MaterialPoints& points, std::span<const unsigned char> rests)
 {
     runs_.clear();
     for (int p = 0; p < static_cast<int>(points.size()); ++p) {
-        if (runs_.empty() || runs_.back().material != points.material[p]) {
-            runs_.push_back({points.material[p], p, p});
+        const bool resting = !rests.empty() && rests[points.cell[p]] != 0;
+        if (runs_.empty() || runs_.back().material != points.material[p] || runs_.back().rests != resting) {
+            runs_.push_back({points.material[p], resting, p, p});
         }
         runs_.back().end = p + 1;
     }

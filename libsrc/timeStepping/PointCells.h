@@ -17,14 +17,17 @@ public:
     {
         int point, from;
     };
-    /// Runs of one material in the storage: {material, first point, one past the last}.
+    /// Run of points in the storage: of one material, in cells that rest or in cells that do not.
     struct Run
     {
-        int material, begin, end;
+        int material;
+        bool rests;
+        int begin, end;
     };
 
-    /// Sorts the storage by cell, then id, and indexes it.
-    void sort(MaterialPoints& points, int cells);
+    /// Sorts the storage by cell, then id, and indexes it. Cells that rest come last: `rests` says so per
+    /// cell, and may be empty.
+    void sort(MaterialPoints& points, int cells, std::span<const unsigned char> rests = {});
     /// Brings the index up to date after points have moved to the cells that they name now: the same as to
     /// sort every cell's points anew.
     void move(const MaterialPoints& points, std::span<const Mover> movers);
@@ -43,7 +46,7 @@ private:
     };
 
     void index(const MaterialPoints& points, int cells);
-    void findRuns(const MaterialPoints& points);
+    void findRuns(const MaterialPoints& points, std::span<const unsigned char> rests);
 
     std::vector<Slot> slots_;
     std::vector<int> index_;

@@ -34,6 +34,12 @@ struct SolutionControls
     /// seepage between the surfaces as they are now, whose gradient loads the drained soil.
     enum class PressureCoupling { explicitStep, quasiSteady };
 
+    /// Cells whose points rest between two sorts while the cell itself is a finite element: none, or all
+    /// filled ones that are femDistance cells away from bodies and surfaces.
+    enum class FemCells { none, automatic };
+
+    FemCells femCells = FemCells::none;
+    int femDistance = 6; ///< [cells]
     PressureCoupling pressureCoupling = PressureCoupling::explicitStep;
     double seepageInterval =
         0.02;                  ///< penetration of a body between two solutions of quasi-steady seepage [m]
@@ -64,8 +70,15 @@ struct SolutionControls
     /// Share of a checkerboard of pore pressures that is removed every ten steps; smooth fields change by
     /// O(h^4).
     double checkerboardFilter = 0.2;
-    int sortInterval = 50; ///< steps between physical sorts of the points
+    int sortInterval = 50; ///< steps between physical sorts of the points; those of FEM cells rest between
     int threads = 0;       ///< 0: the processors, where there are points enough
+
+    /// Cells at rest have one dilatation and the velocities of their nodes.
+    [[nodiscard]] bool mayHaveFemCells() const
+    {
+        return femCells == FemCells::automatic && integration == Integration::mixed &&
+               locking != Locking::none && remap != Remap::all && !affine;
+    }
 };
 
 /// All that does not change while a case runs. Plain, validated data.

@@ -28,7 +28,7 @@ struct StableStep
 /// Counts of cells by how they are treated now.
 struct CellCounts
 {
-    int filled = 0, partial = 0, empty = 0, inside = 0;
+    int fem = 0, filled = 0, partial = 0, empty = 0, inside = 0;
 };
 
 /// One explicit step of the whole scene; the only thing that changes a State.

@@ -1,4 +1,4 @@
-#include "timeStepping/LiquidKernels.h"
+#include "timeStepping/FemKernels.h"
 
 namespace caisson {
 

@@ -15,6 +15,7 @@ struct Variant
     const char* name;
     bool triangles;
     int phases;
+    bool femCells;
 };
 
 /// A skirt on its way into sand, with the mesh that follows it: every loop of a step has work to do.
@@ -24,6 +25,9 @@ State skirtAfterSomeSteps(const Variant& variant, int threads)
     simulation.scene.controls.threads = threads;
     simulation.scene.controls.phases = variant.phases;
     simulation.scene.controls.sortInterval = 7;
+    simulation.scene.controls.femCells =
+        variant.femCells ? SolutionControls::FemCells::automatic : SolutionControls::FemCells::none;
+    simulation.scene.controls.femDistance = 2;
     if (variant.triangles) {
         simulation.scene.controls.locking = SolutionControls::Locking::nodalAverage;
     }
@@ -75,10 +79,14 @@ class EveryStep : public ::testing::TestWithParam<Variant>
 {
 };
 INSTANTIATE_TEST_SUITE_P(, EveryStep,
-                         ::testing::Values(Variant{"onePhaseQuadrilaterals", false, 1},
-                                           Variant{"onePhaseTriangles", true, 1},
-                                           Variant{"twoPhaseQuadrilaterals", false, 2},
-                                           Variant{"twoPhaseTriangles", true, 2}),
+                         ::testing::Values(Variant{"onePhaseQuadrilaterals", false, 1, false},
+                                           Variant{"onePhaseQuadrilateralsBesideFemCells", false, 1, true},
+                                           Variant{"onePhaseTriangles", true, 1, false},
+                                           Variant{"onePhaseTrianglesBesideFemCells", true, 1, true},
+                                           Variant{"twoPhaseQuadrilaterals", false, 2, false},
+                                           Variant{"twoPhaseQuadrilateralsBesideFemCells", false, 2, true},
+                                           Variant{"twoPhaseTriangles", true, 2, false},
+                                           Variant{"twoPhaseTrianglesBesideFemCells", true, 2, true}),
                          [](const auto& variant) { return variant.param.name; });
 
 TEST_P(EveryStep, hasTheSameBitsForAnyNumberOfThreads)

@@ -59,9 +59,10 @@ void printPlan(Log& log, const ControlDict& control, const Scene& scene, const S
     const double whole = axisymmetric ? 2 * std::numbers::pi : 1.0;
     const CellCounts cells = step.cellCounts(state);
     log.line(text("Kernel: %s", step.description().c_str()));
-    log.line(text("Mesh: %d cells (%d filled, %d partly filled, %d empty, %d inside bodies), %d nodes",
-                  state.mesh.cells(), cells.filled, cells.partial, cells.empty, cells.inside,
-                  state.mesh.nodes()));
+    log.line(
+        text("Mesh: %d cells (%d FEM, %d filled, %d partly filled, %d empty, %d inside bodies), %d nodes",
+             state.mesh.cells(), cells.fem, cells.filled, cells.partial, cells.empty, cells.inside,
+             state.mesh.nodes()));
 
     std::vector<double> mass(scene.materials.size(), 0);
     std::vector<double> volume(scene.materials.size(), 0);

@@ -264,8 +264,8 @@ void RunOutput::afterStep(State& state, const TimeStep& step, double courant,
         }
         report.pointSteps = points;
         const CellCounts cells = step.cellCounts(state);
-        report.lines.push_back(text("Cells: filled = %d, partly filled = %d, empty = %d", cells.filled,
-                                    cells.partial, cells.empty));
+        report.lines.push_back(text("Cells: FEM = %d, filled = %d, partly filled = %d, empty = %d", cells.fem,
+                                    cells.filled, cells.partial, cells.empty));
         if (state.points.twoPhase()) {
             report.lines.push_back(
                 text("Pore pressure: checkerboard index = %.4f", step.checkerboardIndex(state)));
