@@ -314,9 +314,14 @@ struct Quadrilateral
     static constexpr int corners = 4;
     static constexpr bool isAxisymmetric = axisymmetric;
 
-    /// A place is centre + a xi + b eta + c xi eta.
+    using Straight = Rectangle<axisymmetric>;
+
+    /// A place is centre + a xi + b eta + c xi eta. Most cells of most meshes are rectangles: with the sides
+    /// of one it is treated as one.
     struct Cell
     {
+        bool isStraight;
+        typename Straight::Cell straight;
         double r[4], z[4];
         double centreR, centreZ, ar, az, br, bz, cr, cz;
         double size; ///< for the stable step [m]
@@ -337,7 +342,11 @@ struct Quadrilateral
         cell.cr = 0.25 * (r[0] + r[2] - r[1] - r[3]);
         cell.cz = 0.25 * (z[0] + z[2] - z[1] - z[3]);
         cell.size = quadrilateralStep * leastExtent(cell);
-        cell.moments = integrate(cell);
+        const double tolerance = 1e-12 * (std::abs(cell.ar) + std::abs(cell.bz));
+        cell.isStraight = std::max({std::abs(cell.az), std::abs(cell.br), std::abs(cell.cr),
+                                    std::abs(cell.cz)}) < tolerance;
+        cell.straight = Straight::make(r, z);
+        cell.moments = cell.isStraight ? Straight::moments(cell.straight) : integrate(cell);
         return cell;
     }
 
@@ -349,6 +358,9 @@ struct Quadrilateral
 
     static bool contains(const Cell& cell, double r, double z)
     {
+        if (cell.isStraight) {
+            return Straight::contains(cell.straight, r, z);
+        }
         for (int k = 0; k < 4; ++k) {
             const int n = (k + 1) % 4;
             if ((cell.r[n] - cell.r[k]) * (z - cell.z[k]) - (cell.z[n] - cell.z[k]) * (r - cell.r[k]) < 0) {
@@ -363,6 +375,9 @@ struct Quadrilateral
     /// exact there.
     static std::array<double, 2> local(const Cell& c, double r, double z)
     {
+        if (c.isStraight) {
+            return Straight::local(c.straight, r, z);
+        }
         const double hr = r - c.centreR;
         const double hz = z - c.centreZ;
         const double quadratic = c.br * c.cz - c.bz * c.cr;
@@ -381,6 +396,9 @@ struct Quadrilateral
     [[gnu::always_inline]] static std::array<double, 2> evaluate(const Cell& c, double r, double z,
                                                                  Values<4>& v)
     {
+        if (c.isStraight) {
+            return Straight::evaluate(c.straight, r, z, v);
+        }
         const auto [xi, eta] = local(c, r, z);
         const double rx = c.ar + c.cr * eta;
         const double zx = c.az + c.cz * eta;
@@ -417,11 +435,19 @@ struct Quadrilateral
 
     static void velocityGradient(const Cell& c, const double* vr, const double* vz, VelocityGradient<4>& g)
     {
-        shapes::velocityGradient(c.moments, vr, vz, g);
+        if (c.isStraight) {
+            Straight::velocityGradient(c.straight, vr, vz, g);
+        } else {
+            shapes::velocityGradient(c.moments, vr, vz, g);
+        }
     }
     static void addForces(const Cell& c, const StressField<4>& s, double* forceR, double* forceZ)
     {
-        shapes::addForces(c.moments, s, forceR, forceZ);
+        if (c.isStraight) {
+            Straight::addForces(c.straight, s, forceR, forceZ);
+        } else {
+            shapes::addForces(c.moments, s, forceR, forceZ);
+        }
     }
 
     static double size(const Cell& c) { return c.size; }
