@@ -302,6 +302,16 @@ CaseScene readCaseScene(const std::filesystem::path& caseDirectory, const std::f
     if (const auto dictionary = readCaseDictionary(caseDirectory, "system/mpmSolution",
                                                    "the scheme and its switches", problems)) {
         scene.controls = readSolutionControls(*dictionary, state.mesh.corners == 3, problems);
+        const std::string& zone = scene.controls.femZone;
+        if (!zone.empty() && !state.mesh.cellZones.contains(zone)) {
+            std::vector<std::string> names;
+            for (const auto& [name, cells] : state.mesh.cellZones) {
+                names.push_back(name);
+            }
+            problems.add(dictionary->find("femZone")->where, "the mesh has no cellZone '" + zone + "'",
+                         names.empty() ? "it has none at all: name blocks in blockMeshDict, or use topoSet"
+                                       : suggestion(zone, names, "cellZones"));
+        }
         result.monitorInterval = readMonitorInterval(*dictionary);
         for (const Material& material : scene.materials) {
             if (scene.controls.affine && material.law->plastic()) {

@@ -19,6 +19,12 @@ constexpr Keyword keywords[] = {
      "automatic: cells well inside the soil are finite elements, whose points rest from sort to sort"},
     {"femDistance", "integer", "6", "[1, 1000]",
      "cells between an FEM cell and a body, a free surface or a partly filled cell"},
+    {"femZone", "word", "-", "", "cellZone that FEM cells are in; anywhere without it"},
+    {"femMotion", "-", "0.2", "(0, 1]",
+     "cells that points of FEM cells may move relative to the mesh until the next sort; those that would "
+     "move "
+     "further do not rest"},
+    {"femStrain", "-", "0.005", "(0, 1]", "strain that they may have until the next sort, likewise"},
     {"velocityRemap", "word", "loose", "none loose all",
      "nodes whose velocity is mapped again from the points before strains are taken from it"},
     {"pressureCoupling", "word", "explicit", "explicit quasiSteady",
@@ -104,6 +110,9 @@ SolutionControls readSolutionControls(const Dictionary& mpmSolution, bool triang
     controls.femCells = reader.word("femCells") == "automatic" ? SolutionControls::FemCells::automatic
                                                                : SolutionControls::FemCells::none;
     controls.femDistance = static_cast<int>(reader.integer("femDistance"));
+    controls.femZone = reader.has("femZone") ? reader.word("femZone") : std::string();
+    controls.femMotion = reader.number("femMotion");
+    controls.femStrain = reader.number("femStrain");
     controls.seepageInterval = reader.number("seepageInterval");
     controls.seepageRamp = reader.number("seepageRamp");
     controls.seepageGate = reader.number("seepageGate");

@@ -13,15 +13,6 @@
 // where the soil is elastic the points end where they would have ended.
 namespace caisson {
 
-namespace kernels {
-
-/// Points rest where they would move by no more than this share of a cell, relative to the mesh, until they
-/// catch up; and where strains stay below the other figure.
-inline constexpr double restingMotion = 0.2;
-inline constexpr double restingStrain = 0.005;
-
-} // namespace kernels
-
 /// Whether points of one material, without loads, move and strain little in an interval [s].
 template <class Shape, int phases>
 bool ExplicitStep<Shape, phases>::mayRest(const State& state, int c, double interval) const
@@ -49,8 +40,8 @@ bool ExplicitStep<Shape, phases>::mayRest(const State& state, int c, double inte
     const double speed = std::max({-lowR, highR, meshVz - lowZ, highZ - meshVz});
     const double difference = std::max(highR - lowR, highZ - lowZ);
     const double size = Shape::size(cells_[c]);
-    return interval * speed <= kernels::restingMotion * size &&
-           interval * difference <= kernels::restingStrain * size;
+    return interval * speed <= scene_.controls.femMotion * size &&
+           interval * difference <= scene_.controls.femStrain * size;
 }
 
 template <class Shape, int phases>
@@ -87,6 +78,13 @@ void ExplicitStep<Shape, phases>::chooseFemCells(const State& state)
             }
             rests_[c] = rests_[c] != 0 && !touches;
         }
+    }
+    if (!controls.femZone.empty()) {
+        std::vector<unsigned char> ofZone(cells_.size(), 0);
+        for (const int c : state.mesh.cellZones.at(controls.femZone)) {
+            ofZone[c] = rests_[c];
+        }
+        rests_ = ofZone;
     }
 
     std::vector<int> chosen;
@@ -127,7 +125,7 @@ void ExplicitStep<Shape, phases>::chooseFemCells(const State& state)
     std::vector<unsigned char>& ofFem = near;
     std::ranges::fill(ofFem, 0);
     for (const int c : chosen) {
-        const double mayMove = kernels::restingMotion * Shape::size(cells_[c]);
+        const double mayMove = controls.femMotion * Shape::size(cells_[c]);
         for (int k = 0; k < corners; ++k) {
             const int i = cellNodes_[c * corners + k];
             ofFem[i] = 1;

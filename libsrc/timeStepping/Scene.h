@@ -39,7 +39,10 @@ struct SolutionControls
     enum class FemCells { none, automatic };
 
     FemCells femCells = FemCells::none;
-    int femDistance = 6; ///< [cells]
+    int femDistance = 6;      ///< [cells]
+    std::string femZone;      ///< cellZone that they are in; empty: anywhere
+    double femMotion = 0.2;   ///< of their points relative to the mesh until the next sort [cells], at most
+    double femStrain = 0.005; ///< of their points until the next sort [-], at most
     PressureCoupling pressureCoupling = PressureCoupling::explicitStep;
     double seepageInterval =
         0.02;                  ///< penetration of a body between two solutions of quasi-steady seepage [m]

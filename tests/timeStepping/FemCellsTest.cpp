@@ -235,6 +235,17 @@ TEST(FemCells, areNoneWhereTheSoilMovesFast)
     EXPECT_EQ(simulation.step->cellCounts(simulation.state).fem, 0);
 }
 
+TEST(FemCells, keepToTheirZone)
+{
+    Simulation simulation = block({"", Geometry::planeStrain, false}, elasticSolid(E, nu, density),
+                                  evenLines(0, 8, 8), evenLines(0, 8, 8));
+    letPointsRest(simulation, 50);
+    simulation.state.mesh.cellZones["far"] = {0, 1, 2, 8, 9, 10};
+    simulation.scene.controls.femZone = "far";
+    simulation.start();
+    EXPECT_EQ(simulation.step->cellCounts(simulation.state).fem, 6);
+}
+
 // A fall that begins while the points rest is no worse for it: they wake in time.
 TEST(FemCells, wakeBeforeTheirPointsHaveLeftThem)
 {
