@@ -377,6 +377,14 @@ CaseScene readCaseScene(const std::filesystem::path& caseDirectory, const std::f
                          "free surface '" + surface.name + "' has a flow, but seepage is quasi-steady",
                          "give its pressure or suction; or phases 2");
         }
+        if (scene.controls.pressureCoupling == SolutionControls::PressureCoupling::projection &&
+            surface.givesFlow()) {
+            problems.add({"0/p", 0},
+                         "free surface '" + surface.name +
+                             "' has a flow, which projection does not keep: its pressures are those of the "
+                             "step before",
+                         "give its pressure or suction; or pressureCoupling explicit");
+        }
     }
 
     if (restarted) {

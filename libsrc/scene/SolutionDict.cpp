@@ -27,9 +27,9 @@ constexpr Keyword keywords[] = {
     {"femStrain", "-", "0.005", "(0, 1]", "strain that they may have until the next sort, likewise"},
     {"velocityRemap", "word", "loose", "none loose all",
      "nodes whose velocity is mapped again from the points before strains are taken from it"},
-    {"pressureCoupling", "word", "explicit", "explicit quasiSteady",
-     "pore water: a phase of its own in the explicit step (phases 2), or steady seepage through drained soil "
-     "(phases 1)"},
+    {"pressureCoupling", "word", "explicit", "explicit projection quasiSteady",
+     "pore water: a phase of its own in the explicit step, or with a step that its stiffness and drag do not "
+     "limit (phases 2); or steady seepage through drained soil (phases 1)"},
     {"seepageInterval", "m", "0.02", "(0, inf)",
      "penetration of a body between two solutions of quasiSteady"},
     {"seepageRamp", "s", "0.2", "[0, inf)", "time over which the pressures of quasiSteady set in"},
@@ -98,9 +98,19 @@ SolutionControls readSolutionControls(const Dictionary& mpmSolution, bool triang
     controls.remap = remap == "none"  ? SolutionControls::Remap::none
                      : remap == "all" ? SolutionControls::Remap::all
                                       : SolutionControls::Remap::loose;
-    controls.pressureCoupling = reader.word("pressureCoupling") == "quasiSteady"
-                                    ? SolutionControls::PressureCoupling::quasiSteady
-                                    : SolutionControls::PressureCoupling::explicitStep;
+    const std::string coupling = reader.word("pressureCoupling");
+    controls.pressureCoupling = coupling == "quasiSteady"  ? SolutionControls::PressureCoupling::quasiSteady
+                                : coupling == "projection" ? SolutionControls::PressureCoupling::projection
+                                                           : SolutionControls::PressureCoupling::explicitStep;
+    if (controls.pressureCoupling == SolutionControls::PressureCoupling::projection) {
+        if (controls.phases != 2) {
+            reader.problem("pressureCoupling", "projection is of soil with a liquid of its own", "phases 2;");
+        }
+        if (controls.drag == SolutionControls::Drag::lagged) {
+            reader.problem("drag", "the step of lagged drag is what projection is to avoid",
+                           "drag implicit;");
+        }
+    }
     if (controls.phases == 2 &&
         controls.pressureCoupling == SolutionControls::PressureCoupling::quasiSteady) {
         reader.problem("pressureCoupling",

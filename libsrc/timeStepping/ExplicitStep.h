@@ -3,6 +3,7 @@
 #include "mesh/CellLocator.h"
 #include "timeStepping/CellShapes.h"
 #include "timeStepping/PointCells.h"
+#include "timeStepping/PressureSolver.h"
 #include "timeStepping/Threads.h"
 #include "timeStepping/TimeStep.h"
 
@@ -92,6 +93,24 @@ private:
         double pressure; ///< mean excess pore pressure round the node [Pa]
     };
 
+    /// By which velocities a pressure increment moves a node (ProjectionKernels.h): along a direction and
+    /// across it, of solid and liquid, per force on the mixture; and the mobility of the mixture.
+    struct Mobility
+    {
+        std::array<double, 2> direction{1, 0};
+        std::array<bool, 2> solidHeld{}, flowHeld{};
+        std::array<double, 2> solid{}, liquid{}; ///< [m/s per N/rad or N/m]
+        double rr = 0, rz = 0, zz = 0;
+    };
+
+    /// What a node does at the wall of a body in this step.
+    struct WallTouch
+    {
+        int node;
+        std::array<double, 2> normal;
+        bool pressed, sticks;
+    };
+
     /// A cell whose points rest (FemKernels.h). Its mean stress stands in femStress_.
     struct FemCell
     {
@@ -165,6 +184,18 @@ private:
     void mapLiquidToNodes(const State& state, int c);
     void mapVoidToNodes(int c);
     void pump(State& state, double dt);
+    [[nodiscard]] bool projects() const
+    {
+        return twoPhase && scene_.controls.pressureCoupling == SolutionControls::PressureCoupling::projection;
+    }
+    void project(State& state, double dt);
+    void freeMobility(int i, double dt);
+    void holdMobility(int i, const std::array<double, 2>& direction, bool solid, bool flow, bool byWall,
+                      double dt);
+    void updateMobilities(double dt);
+    void updateDilatationRows(const State& state, double dt);
+    void multiplyPressures(const Eigen::VectorXd& x, Eigen::VectorXd& product);
+    void factorisePressures();
     void solveTwoPhaseNode(int i, const Corner& solid, double dt);
     void solveLiquidAgain(int i, const std::array<double, 2>& direction);
     void applyLiquidConditions(double time, bool remapped);
@@ -274,6 +305,14 @@ private:
     std::vector<double> cellLiquidRate_;                     ///< as cellRate_, for the liquid
     std::vector<double> loadedArea_;                         ///< per load: of its points (see loadedAreas)
     std::vector<std::array<double, 2>> pointTraction_;       ///< per load, now [Pa]
+    // Projection only.
+    std::vector<Mobility> mobility_;             ///< per node
+    std::vector<WallTouch> wallTouches_;         ///< of this step
+    std::vector<std::array<double, 2>> flowRow_; ///< per corner: dilatation of the cell per velocity [m2/rad]
+    std::vector<std::array<double, 2>> flow_;    ///< per node
+    std::vector<double> storage_;                ///< per cell [m3/rad/(Pa s)]
+    Eigen::VectorXd pressureLoad_, pressureStep_; ///< per cell: less the flow [m3/rad/s], increment [Pa]
+    PressureSolver pressureSolver_;
     std::vector<double> cellRate_;        ///< dilatation rate used by the points of the cell (nodal average)
     mutable std::vector<double> ofNodes_; ///< of averageOverNodes
     std::array<std::vector<double>, 4> strain_; ///< increments of the step, per point

@@ -118,8 +118,11 @@ ExplicitStep<Shape, phases>::ExplicitStep(const Scene& scene, State& state)
                                      : std::numeric_limits<double>::max());
         gravityShare_.push_back(material.weighingDensity() / material.inertialDensity());
         shearModulus_.push_back(material.law->shearModulus());
-        waveSpeed_.push_back(twoPhase ? kernels::fastWave(material)
-                                      : std::sqrt(material.law->pWaveModulus() / material.inertialDensity()));
+        // Projection: the pressure follows, and the soil may leave its liquid behind.
+        const double skeleton =
+            projects() ? (1 - material.porosity) * material.solidDensity : material.inertialDensity();
+        waveSpeed_.push_back(twoPhase && !projects() ? kernels::fastWave(material)
+                                                     : std::sqrt(material.law->pWaveModulus() / skeleton));
         solidShare_.push_back(
             twoPhase ? (1 - material.porosity) * material.solidDensity / material.inertialDensity() : 1);
         if constexpr (twoPhase) {
@@ -176,6 +179,13 @@ ExplicitStep<Shape, phases>::ExplicitStep(const Scene& scene, State& state)
         waterLoad_.resize(mesh.nodes());
         cellLiquidRate_.assign(cells, 0);
         pressureShape_.resize(state.points.size());
+        if (projects()) {
+            mobility_.resize(mesh.nodes());
+            flowRow_.resize(cellNodes_.size());
+            flow_.resize(mesh.nodes());
+            storage_.resize(cells);
+            pressureStep_.setZero(cells);
+        }
         for (const FreeSurface& surface : scene.freeSurfaces) {
             pumped_ = pumped_ || surface.givesFlow();
         }
@@ -224,6 +234,8 @@ void ExplicitStep<Shape, phases>::rebuild(State& state)
         relocate(state, false);
     }
     rests_.clear();
+    pressureSolver_.forget();
+    pressureStep_.setZero();
     pointCells_.sort(state.points, state.mesh.cells());
     occupancyChanged_ = true;
     classifyCells(state);
@@ -497,6 +509,7 @@ std::string ExplicitStep<Shape, phases>::description() const
              : controls.locking == SolutionControls::Locking::meanDilatation ? ", mean dilatation"
                                                                              : ", nodal dilatation";
     words += controls.mayHaveFemCells() ? ", FEM cells" : "";
+    words += projects() ? ", projection" : "";
 #if defined(__AVX512F__)
     words += ", AVX-512";
 #elif defined(__AVX2__)
@@ -522,6 +535,9 @@ void ExplicitStep<Shape, phases>::advance(State& state, double dt)
     mapToNodes(state);
     solveNodes(state, dt);
     if constexpr (twoPhase) {
+        if (projects()) {
+            project(state, dt);
+        }
         if (pumped_) {
             pump(state, dt);
         }
@@ -546,6 +562,7 @@ void ExplicitStep<Shape, phases>::advance(State& state, double dt)
     const bool sorts = (sortInterval > 0 && (state.step + 1) % sortInterval == 0) ||
                        std::ranges::any_of(restless_, [](unsigned char is) { return is != 0; });
     if (sorts) {
+        pressureSolver_.forget(); // its matrix grows old
         wakeFemCells(state);
     }
     moveBodiesAndMesh(state, dt);
@@ -952,6 +969,7 @@ template <class Shape, int phases>
 void ExplicitStep<Shape, phases>::mapToNodes(State& state)
 {
     if constexpr (twoPhase) {
+        wallTouches_.clear();
         prepareLiquid(state);
         for (const int c : voidCells_) {
             mapVoidToNodes(c);
@@ -1335,8 +1353,9 @@ void ExplicitStep<Shape, phases>::mapCellToPoints(State& state, double dt, int c
                 // Storage [Jassim, Stolle & Vermeer 2013]: p' = -(Kw/n)((1-n) div v + n div w).
                 const double n = porosity(points, p);
                 const double flow = (1 - n) * trace + n * (sharedRate ? liquidRate : ownLiquid);
-                double pressure =
-                    points.porePressure[p] - dt * liquid_[points.material[p]].bulkModulus / n * flow;
+                double pressure = points.porePressure[p] +
+                                  (projects() ? pressureStep_[c]
+                                              : -dt * liquid_[points.material[p]].bulkModulus / n * flow);
                 if (sharedRate) {
                     double nodal = 0;
                     for (int k = 0; k < corners; ++k) {

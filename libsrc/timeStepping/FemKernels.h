@@ -311,7 +311,9 @@ void ExplicitStep<Shape, phases>::strainFemCell(State& state, double dt, int c)
         }
         FemLiquidCell& liquid = femLiquidCells_[f];
         const double n = liquid.porosity;
-        liquid.pressure -= dt * liquid_[fem.material].bulkModulus / n * ((1 - n) * trace + n * liquidTrace);
+        liquid.pressure +=
+            projects() ? pressureStep_[c]
+                       : -dt * liquid_[fem.material].bulkModulus / n * ((1 - n) * trace + n * liquidTrace);
     }
 }
 

@@ -144,6 +144,9 @@ void ExplicitStep<Shape, phases>::mapLiquidToNodes(const State& state, int c)
             sum[k].pressureVolume = mean * sum[k].volume;
         }
     } else {
+        for (int k = 0; projects() && k < corners; ++k) {
+            flowRow_[c * corners + k] = {br[k], bz[k]};
+        }
         const double beyond = freeSurface_[c] >= 0 && bySurface_[c] ? surfacePressure_[freeSurface_[c]] : 0;
         for (int k = 0; k < corners; ++k) {
             if (meanDilatation) {
@@ -415,6 +418,9 @@ void ExplicitStep<Shape, phases>::touchTwoPhase(const RigidBody& body, BodyReact
         // Along the normal the liquid moves with the wall; the solid feels its drag.
         double newN = (ms * solidN + drag * wallN) / (ms + drag);
         const bool pressed = newN < wallN;
+        if (projects()) {
+            wallTouches_.push_back({contact.node, n, pressed, false});
+        }
         const double impulseN = pressed ? (ms + drag) * (wallN - newN) : 0;
         const double limit = pressed ? body.friction * impulseN + body.adhesion * area * dt : 0;
         newN = pressed ? wallN : newN;
@@ -424,6 +430,9 @@ void ExplicitStep<Shape, phases>::touchTwoPhase(const RigidBody& body, BodyReact
         double newT = (ms * solidT + dragged * liquidT) / (ms + dragged);
         const double stick = (ms + dragged) * (wallT - newT);
         const double impulseT = std::abs(stick) > limit ? std::copysign(limit, stick) : stick;
+        if (projects()) {
+            wallTouches_.back().sticks = pressed && std::abs(stick) <= limit;
+        }
         newT += impulseT / (ms + dragged);
         const double liquidNewT = (mw * liquidT + drag * newT) / (mw + drag);
 

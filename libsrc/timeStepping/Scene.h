@@ -30,9 +30,10 @@ struct SolutionControls
     /// Drag between liquid and solid: implicit at the nodes, or with the velocities of the step before.
     enum class Drag { implicit, lagged };
 
-    /// How the pore pressure of soil follows it: a second phase in the explicit step; or (one phase) steady
+    /// How the pore pressure of soil follows it: a second phase in the explicit step; the same with pressures
+    /// of the end of the step, which neither the liquid's stiffness nor drag limit; or (one phase) steady
     /// seepage between the surfaces as they are now, whose gradient loads the drained soil.
-    enum class PressureCoupling { explicitStep, quasiSteady };
+    enum class PressureCoupling { explicitStep, projection, quasiSteady };
 
     /// Cells whose points rest between two sorts while the cell itself is a finite element: none, or all
     /// filled ones that are femDistance cells away from bodies and surfaces.

@@ -1,4 +1,4 @@
-#include "timeStepping/FemKernels.h"
+#include "timeStepping/ProjectionKernels.h"
 
 namespace caisson {
 

@@ -16,6 +16,7 @@ struct Variant
     bool triangles;
     int phases;
     bool femCells;
+    SolutionControls::PressureCoupling coupling = SolutionControls::PressureCoupling::explicitStep;
 };
 
 /// A skirt on its way into sand, with the mesh that follows it: every loop of a step has work to do.
@@ -28,6 +29,7 @@ State skirtAfterSomeSteps(const Variant& variant, int threads)
     simulation.scene.controls.femCells =
         variant.femCells ? SolutionControls::FemCells::automatic : SolutionControls::FemCells::none;
     simulation.scene.controls.femDistance = 2;
+    simulation.scene.controls.pressureCoupling = variant.coupling;
     if (variant.triangles) {
         simulation.scene.controls.locking = SolutionControls::Locking::nodalAverage;
     }
@@ -86,7 +88,9 @@ INSTANTIATE_TEST_SUITE_P(, EveryStep,
                                            Variant{"twoPhaseQuadrilaterals", false, 2, false},
                                            Variant{"twoPhaseQuadrilateralsBesideFemCells", false, 2, true},
                                            Variant{"twoPhaseTriangles", true, 2, false},
-                                           Variant{"twoPhaseTrianglesBesideFemCells", true, 2, true}),
+                                           Variant{"twoPhaseTrianglesBesideFemCells", true, 2, true},
+                                           Variant{"twoPhaseProjectionBesideFemCells", false, 2, true,
+                                                   SolutionControls::PressureCoupling::projection}),
                          [](const auto& variant) { return variant.param.name; });
 
 TEST_P(EveryStep, hasTheSameBitsForAnyNumberOfThreads)
