@@ -153,16 +153,16 @@ std::span<const double> flat(const std::vector<std::array<double, 3>>& points)
     return {points.empty() ? nullptr : points.front().data(), 3 * points.size()};
 }
 
-void write(const fs::path& timeDirectory, const std::string& subDirectory, std::string_view className,
-           const std::string& object, const std::string& body, const WriteStyle& style)
+} // namespace
+
+void writeFoamFile(const fs::path& timeDirectory, const std::string& subDirectory, std::string_view className,
+                   const std::string& object, const std::string& body, const WriteStyle& style)
 {
     const std::string location = finalName(timeDirectory) + (subDirectory.empty() ? "" : "/" + subDirectory);
     std::string text = header(className, location, object, style.binary);
     text.append(body).append("\n").append(ending);
     writeFileAtomically(timeDirectory / subDirectory / object, text, style.compressed);
 }
-
-} // namespace
 
 int components(FieldKind kind) { return nameOf(kind).components; }
 
@@ -191,7 +191,7 @@ void writeCloud(const fs::path& timeDirectory, const Cloud& cloud, const WriteSt
         }
     }
     body += "\n)";
-    write(timeDirectory, folder, "Cloud<passiveParticle>", "positions", body, style);
+    writeFoamFile(timeDirectory, folder, "Cloud<passiveParticle>", "positions", body, style);
 
     for (const NamedField& field : cloud.fields) {
         if (field.values.size() != size * static_cast<std::size_t>(components(field.kind))) {
@@ -199,7 +199,8 @@ void writeCloud(const fs::path& timeDirectory, const Cloud& cloud, const WriteSt
         }
         body.clear();
         appendList(body, field.values, field.kind, style);
-        write(timeDirectory, folder, std::string(nameOf(field.kind).type) + "Field", field.name, body, style);
+        writeFoamFile(timeDirectory, folder, std::string(nameOf(field.kind).type) + "Field", field.name, body,
+                      style);
     }
 
     // Tells OpenFOAM's own tools to read `positions`, not `coordinates`.
@@ -291,8 +292,8 @@ void writeField(const fs::path& timeDirectory, const NamedField& field, bool atP
         body.append("    ").append(patch).append("\n    {\n        ").append(entry).append("\n    }\n");
     }
     body += "}";
-    write(timeDirectory, "", (atPoints ? "point" : "vol") + std::string(kind.fieldName) + "Field", field.name,
-          body, style);
+    writeFoamFile(timeDirectory, "", (atPoints ? "point" : "vol") + std::string(kind.fieldName) + "Field",
+                  field.name, body, style);
 }
 
 namespace {
@@ -381,7 +382,8 @@ NamedField readField(const fs::path& file, int size)
 void writeDictionaryFile(const fs::path& timeDirectory, const std::string& subDirectory,
                          const std::string& object, const std::string& body)
 {
-    write(timeDirectory, subDirectory, "dictionary", object, body, {.binary = false, .compressed = false});
+    writeFoamFile(timeDirectory, subDirectory, "dictionary", object, body,
+                  {.binary = false, .compressed = false});
 }
 
 void writePoints(const fs::path& timeDirectory, const std::vector<std::array<double, 3>>& points,
@@ -389,7 +391,7 @@ void writePoints(const fs::path& timeDirectory, const std::vector<std::array<dou
 {
     std::string body;
     appendList(body, flat(points), FieldKind::vector, style);
-    write(timeDirectory, "polyMesh", "vectorField", "points", body, style);
+    writeFoamFile(timeDirectory, "polyMesh", "vectorField", "points", body, style);
 }
 
 } // namespace caisson

@@ -54,6 +54,11 @@ void writeField(const std::filesystem::path& timeDirectory, const NamedField& fi
 /// The internalField of a field file; `uniform` is spread over `size` items.
 NamedField readField(const std::filesystem::path& file, int size);
 
+/// `<timeDirectory>/<subDirectory>/<object>`: the header of the class, then the body.
+void writeFoamFile(const std::filesystem::path& timeDirectory, const std::string& subDirectory,
+                   std::string_view className, const std::string& object, const std::string& body,
+                   const WriteStyle& style);
+
 /// `<timeDirectory>/<subDirectory>/<object>`, a dictionary with the entries `body`.
 void writeDictionaryFile(const std::filesystem::path& timeDirectory, const std::string& subDirectory,
                          const std::string& object, const std::string& body);

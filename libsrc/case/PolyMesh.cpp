@@ -2,8 +2,10 @@
 
 #include "case/FileIO.h"
 #include "case/FoamScanner.h"
+#include "dictionary/Text.h"
 
 #include <algorithm>
+#include <cstdint>
 
 namespace caisson {
 
@@ -108,6 +110,67 @@ std::vector<PolyZone> readCellZones(FoamScanner in, int cells)
     return zones;
 }
 
+/// `N ( ... )`, a label per line in ascii.
+std::string labelList(const std::vector<int>& labels, bool binary)
+{
+    std::string body = std::to_string(labels.size()) + "\n(";
+    if (binary) {
+        const std::vector<std::int32_t> raw(labels.begin(), labels.end());
+        body.append(reinterpret_cast<const char*>(raw.data()), raw.size() * sizeof(std::int32_t));
+        return body + ")";
+    }
+    for (const int label : labels) {
+        body.append("\n").append(std::to_string(label));
+    }
+    return body + "\n)";
+}
+
+std::string faceList(const std::vector<std::vector<int>>& faces)
+{
+    std::string body = std::to_string(faces.size()) + "\n(";
+    for (const std::vector<int>& face : faces) {
+        body.append("\n").append(std::to_string(face.size())).append("(");
+        for (std::size_t k = 0; k < face.size(); ++k) {
+            body.append(k == 0 ? "" : " ").append(std::to_string(face[k]));
+        }
+        body += ")";
+    }
+    return body + "\n)";
+}
+
+/// Where the points of each face begin, then the points of all faces.
+std::string faceCompactList(const std::vector<std::vector<int>>& faces)
+{
+    std::vector<int> start = {0}, points;
+    for (const std::vector<int>& face : faces) {
+        points.insert(points.end(), face.begin(), face.end());
+        start.push_back(static_cast<int>(points.size()));
+    }
+    return labelList(start, true) + "\n" + labelList(points, true);
+}
+
+std::string boundaryList(const std::vector<PolyPatch>& patches)
+{
+    std::string body = std::to_string(patches.size()) + "\n(\n";
+    for (const PolyPatch& patch : patches) {
+        body += text("    %s\n    {\n        type            %s;\n        nFaces          %d;\n"
+                     "        startFace       %d;\n    }\n",
+                     patch.name.c_str(), patch.type.c_str(), patch.faces, patch.startFace);
+    }
+    return body + ")";
+}
+
+std::string zoneList(const std::vector<PolyZone>& zones, bool binary)
+{
+    std::string body = std::to_string(zones.size()) + "\n(\n";
+    for (const PolyZone& zone : zones) {
+        body.append(zone.name).append(
+            "\n{\n    type            cellZone;\n    cellLabels      List<label>\n");
+        body.append(labelList(zone.cells, binary)).append(";\n}\n");
+    }
+    return body + ")";
+}
+
 } // namespace
 
 PolyMesh readPolyMesh(const fs::path& caseDirectory, const fs::path& pointsFrom)
@@ -164,6 +227,28 @@ PolyMesh readPolyMesh(const fs::path& caseDirectory, const fs::path& pointsFrom)
         mesh.cellZones = readCellZones(open("cellZones"), cells);
     }
     return mesh;
+}
+
+void writePolyMesh(const fs::path& caseDirectory, const PolyMesh& mesh, const WriteStyle& style)
+{
+    const fs::path constant = caseDirectory / "constant";
+    const auto write = [&](const char* className, const char* object, const std::string& body,
+                           const WriteStyle& as) {
+        writeFoamFile(constant, "polyMesh", className, object, body, as);
+    };
+    for (const char* stale : {"cellZones", "faceZones", "pointZones", "sets"}) {
+        fs::remove_all(constant / "polyMesh" / stale);
+        fs::remove(constant / "polyMesh" / (std::string(stale) + ".gz"));
+    }
+    writePoints(constant, mesh.points, style);
+    write(style.binary ? "faceCompactList" : "faceList", "faces",
+          style.binary ? faceCompactList(mesh.faces) : faceList(mesh.faces), style);
+    write("labelList", "owner", labelList(mesh.owner, style.binary), style);
+    write("labelList", "neighbour", labelList(mesh.neighbour, style.binary), style);
+    write("polyBoundaryMesh", "boundary", boundaryList(mesh.patches), {.binary = false, .compressed = false});
+    if (!mesh.cellZones.empty()) {
+        write("regIOobject", "cellZones", zoneList(mesh.cellZones, style.binary), style);
+    }
 }
 
 } // namespace caisson

@@ -1,5 +1,7 @@
 #pragma once
 
+#include "case/FoamFile.h"
+
 #include <array>
 #include <filesystem>
 #include <string>
@@ -38,5 +40,9 @@ struct PolyMesh
 /// @throws InputError naming the missing or broken file and the command that would make the mesh
 PolyMesh readPolyMesh(const std::filesystem::path& caseDirectory,
                       const std::filesystem::path& pointsFrom = {});
+
+/// Writes points, faces, owner, neighbour, boundary and, where there are any, cellZones of constant/polyMesh;
+/// removes what another mesh left there: zones and sets of faces, points or cells.
+void writePolyMesh(const std::filesystem::path& caseDirectory, const PolyMesh& mesh, const WriteStyle& style);
 
 } // namespace caisson

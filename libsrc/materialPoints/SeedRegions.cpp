@@ -146,6 +146,15 @@ public:
         }
     }
 
+    void readDisplacement(const BackgroundMesh& mesh, const MeshMotion& motion)
+    {
+        if (!reader_.has("meshDisplacement")) {
+            return;
+        }
+        const double displacement = motion.readDisplacement(reader_, "meshDisplacement");
+        region_.passingHeight = motion.passingHeights(mesh, displacement);
+    }
+
     void readVelocity()
     {
         const Dictionary* dictionary = reader_.dictionary("velocity");
@@ -313,6 +322,8 @@ std::vector<Keyword> seedRegionKeywords(const std::string& type)
          "square"},
         {"refinements", "list", "-", "",
          "boxes with finer points: ( { box ((r z) (r z)); maxSpacing d; } ... )"},
+        {"meshDisplacement", "m", "-", "",
+         "how far the mesh will move, down negative: points as fine as the cells that come by on the way"},
         {"velocity", "dictionary", "-", "", "initial velocity: { r <Function1 of r>; z <Function1 of z>; }"},
     };
     keywords.insert(keywords.end(), std::begin(own), std::end(own));
@@ -345,7 +356,8 @@ void readRegionShape(const KeywordReader& reader, const BackgroundMesh& mesh, Se
 }
 
 std::vector<SeedRegion> readSeedRegions(const std::vector<Dictionary>& regions, const BackgroundMesh& mesh,
-                                        const std::vector<Material>& materials, InputProblems& problems)
+                                        const std::vector<Material>& materials, InputProblems& problems,
+                                        const MeshMotion& motion)
 {
     std::vector<std::string> names;
     names.reserve(materials.size());
@@ -364,6 +376,7 @@ std::vector<SeedRegion> readSeedRegions(const std::vector<Dictionary>& regions, 
         parts.readShape(mesh);
         parts.readDivision(mesh.corners);
         parts.readRefinements();
+        parts.readDisplacement(mesh, motion);
         parts.readVelocity();
         const std::string material = reader.word("material");
         const auto found = std::ranges::find(names, material);

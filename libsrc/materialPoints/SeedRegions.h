@@ -3,6 +3,7 @@
 #include "constitutive/Material.h"
 #include "function1/Function1.h"
 #include "materialPoints/CellDivision.h"
+#include "mesh/MeshMotion.h"
 
 #include <memory>
 #include <string>
@@ -29,6 +30,7 @@ struct SeedRegion
     int material = 0;
     CellDivision division;
     std::vector<SeedRefinement> refinements;
+    std::vector<double> passingHeight; ///< of the moving mesh, at each cell [m]; empty: not asked for
     std::shared_ptr<const Function1> velocityR, velocityZ; ///< of r and of z [m/s]; none: at rest
 
     /// Whether the region holds the place (r, z); true for regions made of whole cells.
@@ -53,6 +55,7 @@ void readRegionShape(const KeywordReader& reader, const BackgroundMesh& mesh, Se
 
 /// Reads `regions ( { type box; min (0 -20); max (15 0); material sand; pointsPerCell (2 2); } ... );`.
 std::vector<SeedRegion> readSeedRegions(const std::vector<Dictionary>& regions, const BackgroundMesh& mesh,
-                                        const std::vector<Material>& materials, InputProblems& problems);
+                                        const std::vector<Material>& materials, InputProblems& problems,
+                                        const MeshMotion& motion = {});
 
 } // namespace caisson

@@ -67,6 +67,13 @@ private:
         }
         result_.regions[i].exactVolume += within;
         CellDivision division = region.division;
+        if (!region.passingHeight.empty()) {
+            constexpr double rounding = 1 + 1e-6;
+            const int rows = mesh_.corners == 4 ? division.along[1] : 1;
+            division = refined(
+                mesh_, cell, division,
+                {std::numeric_limits<double>::infinity(), rounding * region.passingHeight[cell] / rows});
+        }
         for (const SeedRefinement& refinement : region.refinements) {
             if (centreR >= refinement.low[0] && centreR <= refinement.high[0] &&
                 centreZ >= refinement.low[1] && centreZ <= refinement.high[1]) {

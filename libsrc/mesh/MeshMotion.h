@@ -51,6 +51,14 @@ public:
     /// constant/polyMesh.
     [[nodiscard]] DisplacementRange allowedDisplacements() const;
 
+    /// A displacement [m] that a user names under `key`; a problem where the mesh rests or cannot go there.
+    [[nodiscard]] double readDisplacement(const KeywordReader& reader, const char* key) const;
+
+    /// For the place of each cell of the mesh at rest: the least height [m] of the cells that come by while
+    /// the moving zone goes from 0 to `displacement`. Rows that are pressed together count as they are at
+    /// rest.
+    [[nodiscard]] std::vector<double> passingHeights(const BackgroundMesh& mesh, double displacement) const;
+
 private:
     MeshMotionHeights heights_;
     std::string body_;

@@ -193,3 +193,27 @@ TEST(PolyMesh, truncatedBinaryFileIsAnError)
               std::string::npos)
         << problemOf(testCase.path());
 }
+
+TEST(PolyMesh, aWrittenMeshIsReadBackAsItWas)
+{
+    const PolyMesh mesh = readPolyMesh(wedge / "binary");
+    for (const WriteStyle style : {WriteStyle{.binary = true}, WriteStyle{.binary = false},
+                                   WriteStyle{.binary = true, .compressed = true}}) {
+        const TemporaryCase testCase;
+        testCase.write("constant/polyMesh/faceZones", "of another mesh");
+        writePolyMesh(testCase.path(), mesh, style);
+        const PolyMesh again = readPolyMesh(testCase.path());
+        expectSame(again, mesh);
+        for (std::size_t i = 0; i < mesh.patches.size(); ++i) {
+            EXPECT_EQ(again.patches[i].name, mesh.patches[i].name);
+            EXPECT_EQ(again.patches[i].type, mesh.patches[i].type);
+            EXPECT_EQ(again.patches[i].startFace, mesh.patches[i].startFace);
+            EXPECT_EQ(again.patches[i].faces, mesh.patches[i].faces);
+        }
+        for (std::size_t i = 0; i < mesh.cellZones.size(); ++i) {
+            EXPECT_EQ(again.cellZones[i].name, mesh.cellZones[i].name);
+            EXPECT_EQ(again.cellZones[i].cells, mesh.cellZones[i].cells);
+        }
+        EXPECT_FALSE(fs::exists(testCase.path() / "constant/polyMesh/faceZones"));
+    }
+}

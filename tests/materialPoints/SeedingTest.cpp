@@ -1,4 +1,5 @@
 #include "materialPoints/InitialState.h"
+#include "mesh/CellLocator.h"
 #include "support/StructuredMesh.h"
 
 #include <gtest/gtest.h>
@@ -39,14 +40,14 @@ struct Filled
 };
 
 Filled fill(const BackgroundMesh& mesh, const std::string& regions,
-            const std::function<bool(double, double)>& insideBody = {})
+            const std::function<bool(double, double)>& insideBody = {}, const MeshMotion& motion = {})
 {
     Filled result;
     InputProblems problems;
     const Dictionary dictionary = parseDictionary("regions\n(\n" + regions + "\n);", "setMaterialPointsDict");
     const auto materials = soils();
-    const auto read =
-        readSeedRegions(dictionariesIn(*dictionary.find("regions"), problems), mesh, materials, problems);
+    const auto read = readSeedRegions(dictionariesIn(*dictionary.find("regions"), problems), mesh, materials,
+                                      problems, motion);
     if (problems.empty()) {
         result.seeded = seedPoints(mesh, read, materials, insideBody, problems);
     }
@@ -225,4 +226,41 @@ TEST(Seeding, everyMistakeIsAProblemWithItsLine)
     expect("{ type box; material sand; min (0 -1); max (0.001 -0.999); }", "smaller than the sub-cells", 3);
     expect("{ type box; material sand; min (1 -3); max (2 -1); }\n{ type all; material clay; }",
            "belongs to later regions", 3);
+}
+
+TEST(Seeding, noCellThatTheMotionBringsByRunsEmpty)
+{
+    const MeshMotion motion({-6, -1, -0.5, 0}, "caisson");
+    std::vector<double> z = evenLines(-6, -1, 10);
+    for (const double level : {-0.9, -0.8, -0.7, -0.6, -0.5, -0.4, -0.3, -0.2, -0.1, 0.0, 0.5}) {
+        z.push_back(level);
+    }
+    BackgroundMesh mesh = structuredMesh({0, 0.4, 1}, z, Geometry::axisymmetric);
+    const Filled filled =
+        fill(mesh, "{ type box; min (0 -6); max (1 0); material sand; meshDisplacement -2; }", {}, motion);
+    ASSERT_TRUE(filled.problems.empty()) << filled.problems[0];
+    const MaterialPoints& points = filled.seeded.points;
+    const std::vector<double> reference = mesh.z;
+    for (int i = 0; i <= 40; ++i) {
+        motion.place(mesh, reference, -0.05 * i);
+        const CellLocator locator(mesh);
+        std::vector<double> volume(mesh.cells(), 0);
+        for (std::size_t p = 0; p < points.size(); ++p) {
+            volume[locator.find(points.r[p], points.z[p])] += points.volume[p];
+        }
+        for (int cell = 0; cell < mesh.cells(); ++cell) {
+            if (mesh.z[mesh.node(cell, 2)] <= 1e-9) {
+                EXPECT_GT(volume[cell] / cellVolume(mesh, cell), 0.3)
+                    << "cell " << cell << " at displacement " << -0.05 * i;
+            }
+        }
+    }
+}
+
+TEST(Seeding, aDisplacementThatTheMeshCannotTakeIsAProblem)
+{
+    const std::string region = "{ type all; material sand; meshDisplacement -6; }";
+    EXPECT_EQ(fill(domain(), region).problems.at(0), "the mesh of this case rests");
+    EXPECT_EQ(fill(domain(), region, {}, MeshMotion({-6, -1, -0.5, 0}, "caisson")).problems.at(0),
+              "the mesh cannot move as far");
 }

@@ -124,3 +124,22 @@ TEST(MeshMotion, everyMistakeInDynamicMeshDictIsAProblem)
               "the levels of the moving mesh must ascend; ");
     EXPECT_EQ(problemsOf("type none; movingBotom 3;"), "unknown key 'movingBotom' in dynamicMeshDict; ");
 }
+
+TEST(MeshMotion, passingHeightsAreThoseOfTheCellsThatComeBy)
+{
+    // Rows of 0.5 m but for those of 0.1 m that move; columns of two widths to keep apart.
+    std::vector<double> z = evenLines(-4, -1, 6);
+    for (const double level : {-0.9, -0.8, -0.7, -0.6, -0.5, 0.0}) {
+        z.push_back(level);
+    }
+    const BackgroundMesh mesh = structuredMesh({0, 1, 1.5}, z, Geometry::axisymmetric);
+    const MeshMotion motion({-4, -1, -0.5, 0}, "caisson");
+    const std::vector<double> heights = motion.passingHeights(mesh, -1.2);
+    for (int cell = 0; cell < mesh.cells(); ++cell) {
+        const double low = mesh.z[mesh.node(cell, 0)];
+        // The moving rows reach down to -2.2; on top one row of 0.5 m at rest is stretched over what they
+        // leave.
+        EXPECT_NEAR(heights[cell], low >= -2.5 - 1e-9 && low < -0.51 ? 0.1 : 0.5, 1e-12) << "cell at " << low;
+    }
+    EXPECT_NEAR(motion.passingHeights(mesh, 0)[0], 0.5, 1e-12) << "without displacement its own";
+}

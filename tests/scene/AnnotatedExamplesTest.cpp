@@ -1,6 +1,7 @@
 #include "case/ControlDict.h"
 #include "materialPoints/InitialState.h"
 #include "materialPoints/PointLoads.h"
+#include "mesh/CoarsenMesh.h"
 #include "scene/SolutionDict.h"
 
 #include <gtest/gtest.h>
@@ -74,6 +75,11 @@ TEST(AnnotatedExamples, mpmSolutionExplainsEveryKey) { expectExplained("mpmSolut
 TEST(AnnotatedExamples, dynamicMeshDictExplainsEveryKey)
 {
     expectExplained("dynamicMeshDict", meshMotionKeywords());
+}
+
+TEST(AnnotatedExamples, coarsenMeshDictExplainsEveryKey)
+{
+    expectExplained("coarsenMeshDict", coarsenMeshKeywords());
 }
 
 TEST(AnnotatedExamples, bodiesExplainEveryKeyOfEveryShape)

@@ -1,5 +1,7 @@
 #include "support/Simulation.h"
 
+#include "materialPoints/CellDivision.h"
+
 #include <cmath>
 
 namespace caisson::testing {
@@ -69,16 +71,9 @@ void Simulation::fill(int material, int n, int m, const std::function<bool(doubl
         if (wanted && !wanted(centreR, centreZ)) {
             continue;
         }
-        if (mesh.corners == 4) { // rectangles in these tests
-            const double dr = (r[2] - r[0]) / n;
-            const double dz = (z[2] - z[0]) / m;
-            for (int j = 0; j < m; ++j) {
-                for (int i = 0; i < n; ++i) {
-                    // volume and centroid of the part of the cell that the point stands for
-                    const double middle = r[0] + (i + 0.5) * dr;
-                    const double pr = axisymmetric ? middle + dr * dr / (12 * middle) : middle;
-                    add(c, pr, z[0] + (j + 0.5) * dz, dr * dz * (axisymmetric ? middle : 1));
-                }
+        if (mesh.corners == 4) {
+            for (const SubCell& part : subdivide(mesh, c, {.along = {n, m}})) {
+                add(c, part.r, part.z, part.volume);
             }
         } else {
             double weight = 0;

@@ -1,5 +1,7 @@
 #include "support/StructuredMesh.h"
 
+#include "mesh/PolyMeshLayer.h"
+
 #include <map>
 
 namespace caisson::testing {
@@ -86,6 +88,15 @@ BackgroundMesh structuredMesh(const std::vector<double>& rLines, const std::vect
     }
     mesh.nodePoints.assign(mesh.nodes(), {0, 0});
     return mesh;
+}
+
+PolyMesh layerOf(BackgroundMesh mesh)
+{
+    const char* type = mesh.geometry == Geometry::axisymmetric ? "wedge" : "empty";
+    const auto planes = static_cast<int>(mesh.patches.size());
+    mesh.patches.push_back({"front", type, {}});
+    mesh.patches.push_back({"back", type, {}});
+    return polyMeshLayer(mesh, planes, planes + 1);
 }
 
 } // namespace caisson::testing

@@ -11,6 +11,9 @@ namespace caisson::testing {
 BackgroundMesh structuredMesh(const std::vector<double>& rLines, const std::vector<double>& zLines,
                               Geometry geometry, bool triangles = false);
 
+/// The polyMesh of a structured mesh: a layer with the patches above and front and back.
+PolyMesh layerOf(BackgroundMesh mesh);
+
 /// n equal intervals from a to b.
 std::vector<double> evenLines(double a, double b, int n);
 

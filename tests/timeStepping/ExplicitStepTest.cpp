@@ -1,4 +1,5 @@
 #include "mesh/CellLocator.h"
+#include "mesh/CoarsenMesh.h"
 #include "support/Simulation.h"
 #include "support/StructuredMesh.h"
 
@@ -81,6 +82,41 @@ TEST_P(EveryKernel, patchOfUniformStressStaysAtRest)
     simulation.run(50 * 0.8 * simulation.step->stableStep(simulation.state).step, 0.8);
     const double waveSpeed = simulation.step->stableStep(simulation.state).waveSpeed;
     EXPECT_LT(largestSpeed(simulation.state) / waveSpeed, 1e-12) << "rounding only";
+}
+
+// A mesh whose rows and columns merge three to one carries a uniform strain as exactly as any: what settles
+// under uniform pressures has their stress everywhere, and the displacements that are linear in r and z.
+TEST(CoarsenedMesh, patchTestIsExact)
+{
+    Coarsening wish;
+    wish.rowsMergeOutside = {0.5, 0.8};
+    wish.columnsMergeBelow = -0.4;
+    const PolyMesh fine =
+        layerOf(structuredMesh(evenLines(0, 1.8, 12), evenLines(-1, 0, 20), Geometry::axisymmetric));
+    InputProblems problems;
+    Simulation simulation;
+    simulation.state.mesh = buildBackgroundMesh(coarsened(fine, wish, problems), problems);
+    ASSERT_TRUE(problems.empty());
+    ASSERT_LT(simulation.state.mesh.cells(), 12 * 20 - 20);
+    const int soil = simulation.addMaterial("soil", elastic);
+    simulation.scene.controls.localDamping = 0.7;
+    simulation.setConditions("right { type pressure; uniformValue 0.3; } bottom { type slip; } "
+                             "top { type pressure; uniformValue 1; }");
+    simulation.fill(soil, 2, 2);
+    simulation.start();
+    simulation.run(0.6, 0.8);
+    const MaterialPoints& points = simulation.state.points;
+    // Strains of 1e-7: neither large displacements nor the rounding of places shows.
+    const double radial = -0.3, axial = -1, modulus = 1e7, ratio = 0.3;
+    const double radialStrain = (radial - ratio * (radial + axial)) / modulus;
+    const double axialStrain = (axial - 2 * ratio * radial) / modulus;
+    for (std::size_t p = 0; p < points.size(); ++p) {
+        ASSERT_NEAR(points.stress[0][p] / axial, radial / axial, 1e-6);
+        ASSERT_NEAR(points.stress[1][p] / axial, 1, 1e-6);
+        ASSERT_NEAR(points.stress[3][p] / axial, 0, 1e-6);
+        ASSERT_NEAR((points.r[p] - points.initialR[p]) / (radialStrain * points.initialR[p]), 1, 1e-5);
+        ASSERT_NEAR((points.z[p] - points.initialZ[p]) / (axialStrain * (points.initialZ[p] + 1)), 1, 1e-5);
+    }
 }
 
 // V20: a free block falls as one piece through a graded mesh, whatever cells it fills on its way.

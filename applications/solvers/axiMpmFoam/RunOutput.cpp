@@ -6,9 +6,37 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
+#include <limits>
 #include <numbers>
+#include <numeric>
 
 namespace caisson {
+
+namespace {
+
+/// Points that had no other above them at the start, closer to the vertical than 45 degrees: none has both
+/// z - r and z + r greater.
+std::vector<int> topmostPoints(const MaterialPoints& points)
+{
+    std::vector<std::array<double, 3>> order; // z - r, z + r, point
+    for (std::size_t p = 0; p < points.size(); ++p) {
+        order.push_back({points.initialZ[p] - points.initialR[p], points.initialZ[p] + points.initialR[p],
+                         static_cast<double>(p)});
+    }
+    std::ranges::sort(order, std::greater());
+    std::vector<int> topmost;
+    double greatest = -std::numeric_limits<double>::max();
+    for (const auto& [difference, sum, p] : order) {
+        if (sum > greatest) {
+            greatest = sum;
+            topmost.push_back(static_cast<int>(p));
+        }
+    }
+    return topmost;
+}
+
+} // namespace
 
 SurfaceHeave::SurfaceHeave(const State& state, const RigidBody& body)
 {
@@ -29,24 +57,28 @@ SurfaceHeave::SurfaceHeave(const State& state, const RigidBody& body)
 
     // Strips between the radii that occur among the topmost points.
     const MaterialPoints& points = state.points;
-    std::vector<double> radii;
-    for (std::size_t p = 0; p < points.size(); ++p) {
-        radii.push_back(points.initialR[p]);
-    }
-    std::ranges::sort(radii);
-    // Regular filling repeats its radii; for an irregular one, strips hold some hundred points each.
-    std::vector<double> distinct;
-    for (const double r : radii) {
-        if (distinct.empty() || r - distinct.back() > 1e-6 * outerRadius_) {
-            distinct.push_back(r);
+    const auto distinctRadii = [&](const std::vector<int>& of) {
+        std::vector<double> radii;
+        for (const int p : of) {
+            radii.push_back(points.initialR[p]);
         }
-    }
-    if (distinct.size() > radii.size() / 4) {
+        std::ranges::sort(radii);
+        const auto same = [&](double a, double b) { return b - a <= 1e-6 * outerRadius_; };
+        radii.erase(std::unique(radii.begin(), radii.end(), same), radii.end());
+        return radii;
+    };
+    std::vector<int> all(points.size());
+    std::iota(all.begin(), all.end(), 0);
+    std::vector<double> distinct = distinctRadii(all);
+    // Regular filling repeats its radii; for an irregular one, strips hold some hundred points each.
+    if (distinct.size() > points.size() / 4) {
         std::vector<double> coarse;
         for (std::size_t i = 0; i < distinct.size(); i += 100) {
             coarse.push_back(distinct[i]);
         }
         distinct = coarse;
+    } else {
+        distinct = distinctRadii(topmostPoints(points));
     }
     std::vector<double> edges(1, 0.0);
     for (std::size_t i = 1; i < distinct.size(); ++i) {

@@ -8,6 +8,7 @@
 #include "case/FileIO.h"
 #include "case/Program.h"
 #include "installation/InstallationInput.h"
+#include "mesh/CoarsenMesh.h"
 #include "mesh/MeshMotion.h"
 #include "scene/CaseScene.h"
 #include "scene/SeepageScene.h"
@@ -94,6 +95,7 @@ std::string allTables()
     text += "## constant/pointLoads\n\nLoads on material points, one sub-dictionary each.\n\n" +
             tables("every load", "load of type", pointLoadTypes(), pointLoadKeywords);
     text += "## constant/dynamicMeshDict\n\n" + table("dynamicMeshDict", meshMotionKeywords());
+    text += "## system/coarsenMeshDict\n\n" + table("coarsenMeshDict", coarsenMeshKeywords());
     text += "## constant/g\n\n" + table("g", gravityKeywords());
     text += "## system/seepageDict\n\nFor seepageFoam; steady where the file is missing.\n\n" +
             table("seepageDict", seepageKeywords());

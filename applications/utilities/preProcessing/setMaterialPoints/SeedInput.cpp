@@ -160,7 +160,11 @@ SeedInput readSeedInput(const fs::path& caseDirectory, const fs::path& dictionar
                            "regions ( { type all; material sand; } );");
         }
         if (meshIsThere) { // without a mesh every cellZone and pointsPerCell would look wrong
-            input.regions = readSeedRegions(regions, input.mesh, input.materials, problems);
+            MeshMotion motion;
+            if (fileExists(caseDirectory / "constant/dynamicMeshDict")) {
+                motion = readMeshMotion(dictionary("constant/dynamicMeshDict"), problems);
+            }
+            input.regions = readSeedRegions(regions, input.mesh, input.materials, problems, motion);
         }
         if (const Dictionary* state = reader.dictionary("initialState")) {
             input.initialState = readInitialState(*state, problems);
