@@ -17,8 +17,7 @@ constexpr Keyword keywords[] = {
      "treatment of locking; automatic: meanDilatation on quadrilaterals, nodalAverage on triangles"},
     {"femCells", "word", "none", "none automatic",
      "automatic: cells well inside the soil are finite elements, whose points rest from sort to sort"},
-    {"femDistance", "integer", "6", "[1, 1000]",
-     "cells between an FEM cell and a body, a free surface or a partly filled cell"},
+    {"femDistance", "integer", "6", "[1, 1000]", "cells between an FEM cell and a body or a free surface"},
     {"femZone", "word", "-", "", "cellZone that FEM cells are in; anywhere without it"},
     {"femMotion", "-", "0.2", "(0, 1]",
      "cells that points of FEM cells may move relative to the mesh until the next sort; those that would "

@@ -62,9 +62,6 @@ void ExplicitStep<Shape, phases>::chooseFemCells(const State& state)
     const double interval = controls.sortInterval * stableStep(state).step;
     for (const int c : activeCells_) {
         rests_[c] = state.filled[c] != 0 && mayRest(state, c, interval);
-        for (int k = 0; !rests_[c] && k < corners; ++k) {
-            near[cellNodes_[c * corners + k]] = 1;
-        }
     }
     for (int ring = 0; ring < std::max(1, controls.femDistance); ++ring) {
         const std::vector<unsigned char> before = near;
@@ -77,6 +74,18 @@ void ExplicitStep<Shape, phases>::chooseFemCells(const State& state)
                 near[cellNodes_[c * corners + k]] = 1;
             }
             rests_[c] = rests_[c] != 0 && !touches;
+        }
+    }
+    // Nodes of partly filled cells may be loose.
+    std::ranges::fill(near, 0);
+    for (const int c : activeCells_) {
+        for (int k = 0; !state.filled[c] && k < corners; ++k) {
+            near[cellNodes_[c * corners + k]] = 1;
+        }
+    }
+    for (const int c : activeCells_) {
+        for (int k = 0; k < corners; ++k) {
+            rests_[c] = rests_[c] != 0 && near[cellNodes_[c * corners + k]] == 0;
         }
     }
     if (!controls.femZone.empty()) {

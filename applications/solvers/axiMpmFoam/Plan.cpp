@@ -112,12 +112,14 @@ void printPlan(Log& log, const ControlDict& control, const Scene& scene, const S
     }
 }
 
-void timeSteps(Log& log, const ControlDict& control, const RunTime& runTime, const Scene&, State& state,
+void timeSteps(Log& log, const ControlDict& control, const RunTime& runTime, const Scene& scene, State& state,
                TimeStep& step)
 {
     const double deltaT = runTime.wantedDeltaT(step.stableStep(state).step);
     const double steps = std::ceil((control.endTime - runTime.time()) / deltaT);
-    constexpr int trial = 20;
+    // With one sort, for which the points of FEM cells wake.
+    const int trial =
+        scene.controls.mayHaveFemCells() ? std::clamp(scene.controls.sortInterval, 20, 100) : 20;
     step.advance(state, deltaT);
     const double start = log.clockSeconds();
     for (int i = 0; i < trial; ++i) {
