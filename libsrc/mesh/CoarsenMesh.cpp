@@ -477,7 +477,6 @@ Coarsening readCoarsening(const Dictionary& coarsenMeshDict, MeshMotion motion, 
         const double displacement = motion.readDisplacement(reader, "meshDisplacement");
         coarsening.displacements = {std::min(0.0, displacement), std::max(0.0, displacement)};
     }
-    coarsening.motion = std::move(motion);
     coarsening.aspectRatio = reader.number("aspectRatio");
     coarsening.whereLevels = reader.where("keepLevels");
     if (reader.has("keepLevels")) {
@@ -499,6 +498,7 @@ Coarsening readCoarsening(const Dictionary& coarsenMeshDict, MeshMotion motion, 
         reader.problem("rowsMergeOutside", "nothing would merge",
                        "rowsMergeOutside (2.2 2.8);  or columnsMergeBelow -6;  or both");
     }
+    coarsening.motion = std::move(motion);
     return coarsening;
 }
 
