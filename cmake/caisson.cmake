@@ -10,6 +10,8 @@ if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
     # Known false alarms of g++ 12 inside its own standard library.
     target_compile_options(caissonFlags INTERFACE -Wno-restrict -Wno-maybe-uninitialized)
 endif()
+# Eigen allocates as the instruction set has it, and one program holds parts for several: the same alignment for all.
+target_compile_definitions(caissonFlags INTERFACE EIGEN_MAX_ALIGN_BYTES=16)
 if(CAISSON_NATIVE)
     target_compile_options(caissonFlags INTERFACE -march=native)
 elseif(CMAKE_SYSTEM_PROCESSOR MATCHES "x86_64|AMD64")

@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace caisson {
 
@@ -371,14 +372,21 @@ CaseScene readCaseScene(const std::filesystem::path& caseDirectory, const std::f
         readLiquid(caseDirectory, restarted ? "0" : start.filename().string(), polyMesh, result, problems);
     }
 
+    const bool projection = scene.controls.pressureCoupling == SolutionControls::PressureCoupling::projection;
+    for (const Material& material : scene.materials) {
+        if (projection && material.cavitationPressure > std::numeric_limits<double>::lowest()) {
+            problems.add({"constant/materialProperties", 0},
+                         "'" + material.name + "' has a cavitationPressure, which projection does not know",
+                         "leave it out; or pressureCoupling explicit");
+        }
+    }
     for (const FreeSurface& surface : scene.freeSurfaces) {
         if (seepage && surface.givesFlow()) {
             problems.add({"0/p", 0},
                          "free surface '" + surface.name + "' has a flow, but seepage is quasi-steady",
                          "give its pressure or suction; or phases 2");
         }
-        if (scene.controls.pressureCoupling == SolutionControls::PressureCoupling::projection &&
-            surface.givesFlow()) {
+        if (projection && surface.givesFlow()) {
             problems.add({"0/p", 0},
                          "free surface '" + surface.name +
                              "' has a flow, which projection does not keep: its pressures are those of the "

@@ -105,6 +105,10 @@ SolutionControls readSolutionControls(const Dictionary& mpmSolution, bool triang
         if (controls.phases != 2) {
             reader.problem("pressureCoupling", "projection is of soil with a liquid of its own", "phases 2;");
         }
+        if (controls.locking == SolutionControls::Locking::none && !triangles) {
+            reader.problem("volumetricLocking", "projection knows one pressure per cell",
+                           "meanDilatation or nodalAverage; or pressureCoupling explicit");
+        }
         if (controls.drag == SolutionControls::Drag::lagged) {
             reader.problem("drag", "the step of lagged drag is what projection is to avoid",
                            "drag implicit;");

@@ -138,16 +138,15 @@ void ExplicitStep<Shape, phases>::updateDilatationRows(const State& state, doubl
     forCells([&](int c) {
         const bool full =
             scene_.controls.integration == SolutionControls::Integration::mixed && !bySurface_[c];
-        double volume = 0, pores = 0;
-        const int first = *pointCells_.begin(c);
-        const double bulkModulus = liquid_[state.points.material[first]].bulkModulus;
-        if (resting(c) && femSteps_ > 0) {
+        double volume = 0, stored = 0; // per pressure
+        const auto bulkModulus = [&](int p) { return liquid_[state.points.material[p]].bulkModulus; };
+        if (resting(c) && femSteps_ > 0) { // of one material
             volume = 1;
-            pores = femLiquidCells_[femOf_[c]].porosity;
+            stored = femLiquidCells_[femOf_[c]].porosity / bulkModulus(*pointCells_.begin(c));
         } else {
             for (const int* p = pointCells_.begin(c); p != pointCells_.end(c); ++p) {
                 volume += state.points.volume[*p];
-                pores += porosity(state.points, *p) * state.points.volume[*p];
+                stored += porosity(state.points, *p) * state.points.volume[*p] / bulkModulus(*p);
             }
         }
         if (full) {
@@ -156,9 +155,9 @@ void ExplicitStep<Shape, phases>::updateDilatationRows(const State& state, doubl
                 flowRow_[c * corners + k] = {dilatation.volume * dilatation.br[k],
                                              dilatation.volume * dilatation.bz[k]};
             }
-            pores *= dilatation.volume / volume;
+            stored *= dilatation.volume / volume;
         }
-        storage_[c] = pores / (bulkModulus * dt);
+        storage_[c] = stored / dt;
     });
 }
 

@@ -55,10 +55,18 @@ Simulation caissonUnderSuction(double suction, int phases = 2)
     return simulation;
 }
 
-TEST(SeepageScene, theTwoPhaseStepSettlesToTheSteadySeepage)
+class TwoPhaseStep : public ::testing::TestWithParam<SolutionControls::PressureCoupling>
+{
+};
+INSTANTIATE_TEST_SUITE_P(, TwoPhaseStep,
+                         ::testing::Values(SolutionControls::PressureCoupling::explicitStep,
+                                           SolutionControls::PressureCoupling::projection));
+
+TEST_P(TwoPhaseStep, settlesToTheSteadySeepage)
 {
     const double suction = 1e3;
     Simulation simulation = caissonUnderSuction(suction);
+    simulation.scene.controls.pressureCoupling = GetParam();
     simulation.scene.controls.localDamping = 0.3;
     simulation.start();
     const std::vector<double> steady = steadyPorePressure(simulation.scene, simulation.state);

@@ -66,6 +66,10 @@ class Flow : public ByCoupling
 {
 };
 INSTANTIATE_TEST_SUITE_P(, Flow, bothCouplings, nameOfCoupling);
+class Rod : public ByCoupling
+{
+};
+INSTANTIATE_TEST_SUITE_P(, Rod, bothCouplings, nameOfCoupling);
 class FreeSurfaces : public ByCoupling
 {
 };
@@ -628,7 +632,7 @@ TEST(Waves, theFirstModeOfAColumnHasTheCoupledFrequency)
 
 /// The friction on a rod in an annulus that presses on it with an effective stress and ten times as much pore
 /// pressure: from the effective stress alone.
-TEST(PullOut, frictionFollowsFromTheEffectiveStressAlone)
+TEST_P(Rod, frictionFollowsFromTheEffectiveStressAlone)
 {
     const int n = 8;
     const double a = 0.5, b = 1, height = 8, pressed = 1e3, pore = 1e4, young = 1e7, mu = 0.3;
