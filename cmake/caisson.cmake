@@ -10,12 +10,12 @@ if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
     # Known false alarms of g++ 12 inside its own standard library.
     target_compile_options(caissonFlags INTERFACE -Wno-restrict -Wno-maybe-uninitialized)
 endif()
-# Eigen allocates as the instruction set has it, and one program holds parts for several: the same alignment for all.
-target_compile_definitions(caissonFlags INTERFACE EIGEN_MAX_ALIGN_BYTES=16)
 if(CAISSON_NATIVE)
     target_compile_options(caissonFlags INTERFACE -march=native)
 elseif(CMAKE_SYSTEM_PROCESSOR MATCHES "x86_64|AMD64")
     # What computes is built twice, for every processor and for those with AVX2 (x86-64-v3): see KERNEL and DISPATCHED.
+    # Eigen would allocate by the alignment of each: 32 byte, that of AVX2, for both, since one frees what the other took.
+    target_compile_definitions(caissonFlags INTERFACE EIGEN_MAX_ALIGN_BYTES=32 EIGEN_MAX_STATIC_ALIGN_BYTES=16)
     target_compile_options(caissonFlags INTERFACE
         -march=$<IF:$<BOOL:$<TARGET_PROPERTY:CAISSON_AVX2>>,x86-64-v3,x86-64-v2>)
     if(NOT CAISSON_SANITIZE)
