@@ -2,6 +2,8 @@
 
 #include "mesh/BackgroundMesh.h"
 
+#include <Eigen/Core>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -51,11 +53,71 @@ struct Moments
 
 /// Gradient of a velocity over a filled cell, rr zz hoop rz zr (rz is dv_r/dz): its mean, and its slopes with
 /// xi - xiCentre and eta - etaCentre.
-template <int corners>
-using VelocityGradient = double[Moments<corners>::count][5];
+template <int corners, class Real = double>
+using VelocityGradient = Real[Moments<corners>::count][5];
 /// Stress over a filled cell, rr zz tt rz: its mean, and its slopes.
-template <int corners>
-using StressField = double[Moments<corners>::count][4];
+template <int corners, class Real = double>
+using StressField = Real[Moments<corners>::count][4];
+
+/// One value for each of so many cells that are computed together.
+template <int lanes>
+using Lanes = std::conditional_t<lanes == 1, double, Eigen::Array<double, lanes, 1>>;
+
+inline double lane(double value, int) { return value; }
+template <class Real>
+double lane(const Real& values, int l)
+{
+    return values[l];
+}
+inline void setLane(double& to, int, double value) { to = value; }
+template <class Real>
+void setLane(Real& to, int l, double value)
+{
+    to[l] = value;
+}
+
+/// `count` values from the f-th on; the last one again where they are fewer than the lanes.
+template <class Real>
+[[gnu::always_inline]] inline Real lanesOf(const std::vector<double>& values, int f, int count)
+{
+    if constexpr (std::is_same_v<Real, double>) {
+        return values[f];
+    } else {
+        constexpr int lanes = Real::RowsAtCompileTime;
+        if (count == lanes) {
+            return Eigen::Map<const Real>(values.data() + f);
+        }
+        Real result;
+        for (int l = 0; l < lanes; ++l) {
+            result[l] = values[f + std::min(l, count - 1)];
+        }
+        return result;
+    }
+}
+
+template <class Real>
+[[gnu::always_inline]] inline void setLanes(std::vector<double>& values, int f, int count, const Real& result)
+{
+    if constexpr (std::is_same_v<Real, double>) {
+        values[f] = result;
+    } else if (count == Real::RowsAtCompileTime) {
+        Eigen::Map<Real>(values.data() + f) = result;
+    } else {
+        for (int l = 0; l < count; ++l) {
+            values[f + l] = result[l];
+        }
+    }
+}
+
+template <class Real>
+Real zero()
+{
+    if constexpr (std::is_same_v<Real, double>) {
+        return 0;
+    } else {
+        return Real::Zero();
+    }
+}
 
 template <int corners>
 void velocityGradient(const Moments<corners>& m, const double* vr, const double* vz,
@@ -90,6 +152,38 @@ void addForces(const Moments<corners>& m, const StressField<corners>& stress, do
     }
 }
 
+/// Mean of the divergence, and its adjoint.
+template <int corners>
+double divergence(const MeanDilatation<corners>& m, const double* vr, const double* vz)
+{
+    double sum = 0;
+    for (int k = 0; k < corners; ++k) {
+        sum += m.br[k] * vr[k] + m.bz[k] * vz[k];
+    }
+    return sum;
+}
+template <int corners>
+void addPressure(const MeanDilatation<corners>& m, double pressure, double* forceR, double* forceZ)
+{
+    for (int k = 0; k < corners; ++k) {
+        forceR[k] += m.volume * pressure * m.br[k];
+        forceZ[k] += m.volume * pressure * m.bz[k];
+    }
+}
+
+/// Cells that are computed with as they were, one by one.
+template <class Cell>
+class FrozenCells
+{
+public:
+    void resize(std::size_t size) { cells_.resize(size); }
+    void set(int f, const Cell& cell) { cells_[f] = cell; }
+    [[nodiscard]] const Cell& at(int f, int) const { return cells_[f]; }
+
+private:
+    std::vector<Cell> cells_;
+};
+
 /// Stable step of quadrilaterals: this share of the shorter side over the wave speed. The shortest wave of
 /// the nodes is partly lost on the way to the points and back; with the share phi that survives, the
 /// leap-frog of the rest is stable for omega dt < 2/sqrt(2 - phi), which is 0.707 h/c at worst (phi = 0) and
@@ -103,10 +197,60 @@ struct Rectangle
 {
     static constexpr int corners = 4;
     static constexpr bool isAxisymmetric = axisymmetric;
+    static constexpr int lanes = 8; ///< cells whose integrals are computed together
 
     struct Cell
     {
         double r0, z0, dr, dz, invDr, invDz;
+    };
+
+    /// The integrals of the strain operator are made of these.
+    template <class Real>
+    struct Integrals
+    {
+        Real twoR, twoZ;         ///< 2 over the sides
+        Real quarter;            ///< of the volume
+        Real inverseR, xiCentre; ///< 1 over the mean of the weight r, or 0; mean of xi
+        Real inertiaXi;
+        Real inverseInertia;
+    };
+
+    static Integrals<double> integrals(const Cell& c)
+    {
+        const double radius = axisymmetric ? c.r0 + 0.5 * c.dr : 1;
+        const double inverseR = axisymmetric ? 1 / radius : 0;
+        const double xiCentre = c.dr / 6 * inverseR;
+        const double inertiaXi = 1.0 / 3 - xiCentre * xiCentre;
+        return {2 * c.invDr, 2 * c.invDz,  0.25 * c.dr * c.dz * radius, inverseR, xiCentre,
+                inertiaXi,   1 / inertiaXi};
+    }
+
+    /// Cells that are computed with as they were, `lanes` at once.
+    class FrozenCells
+    {
+    public:
+        void resize(std::size_t size)
+        {
+            for (auto& values : values_) {
+                values.resize(size);
+            }
+        }
+        void set(int f, const Cell& cell)
+        {
+            const auto [a, b, c, d, e, g, h] = integrals(cell);
+            const std::array<double, 7> all{a, b, c, d, e, g, h};
+            for (std::size_t j = 0; j < all.size(); ++j) {
+                values_[j][f] = all[j];
+            }
+        }
+        [[nodiscard]] Integrals<Lanes<lanes>> at(int f, int count) const
+        {
+            const auto of = [&](int j) { return lanesOf<Lanes<lanes>>(values_[j], f, count); };
+            return {of(0), of(1), of(2), of(3), of(4), of(5), of(6)};
+        }
+
+    private:
+        std::array<std::vector<double>, 7> values_;
     };
 
     static Cell make(const double* r, const double* z)
@@ -223,47 +367,73 @@ struct Rectangle
     }
 
     /// A velocity is a0 + a1 xi + a2 eta + a3 xi eta; the moments of that in closed form.
-    static void velocityGradient(const Cell& c, const double* vr, const double* vz, VelocityGradient<4>& g)
+    template <class Real>
+    [[gnu::always_inline]] static void velocityGradient(const Integrals<Real>& c, const Real* vr,
+                                                        const Real* vz, VelocityGradient<4, Real>& g)
     {
-        const Weights w(c);
         const auto [a0, a1, a2, a3] = modes(vr);
         const auto [b0, b1, b2, b3] = modes(vz);
-        const double twoR = 2 * c.invDr;
-        const double twoZ = 2 * c.invDz;
-        g[0][0] = twoR * a1;
-        g[0][1] = twoZ * (b2 + w.xiCentre * b3);
-        g[0][2] = w.inverseR * a0;
-        g[0][3] = twoZ * (a2 + w.xiCentre * a3);
-        g[0][4] = twoR * b1;
-        g[1][0] = 0;
-        g[1][1] = twoZ * b3;
-        g[1][2] = w.inverseR * (a1 / 3 - w.xiCentre * a0) / w.inertiaXi;
-        g[1][3] = twoZ * a3;
-        g[1][4] = 0;
-        g[2][0] = twoR * a3;
-        g[2][1] = 0;
-        g[2][2] = w.inverseR * a2;
-        g[2][3] = 0;
-        g[2][4] = twoR * b3;
+        g[0][0] = c.twoR * a1;
+        g[0][1] = c.twoZ * (b2 + c.xiCentre * b3);
+        g[0][2] = c.inverseR * a0;
+        g[0][3] = c.twoZ * (a2 + c.xiCentre * a3);
+        g[0][4] = c.twoR * b1;
+        g[1][0] = zero<Real>();
+        g[1][1] = c.twoZ * b3;
+        g[1][2] = c.inverseR * (a1 * (1.0 / 3) - c.xiCentre * a0) * c.inverseInertia;
+        g[1][3] = c.twoZ * a3;
+        g[1][4] = g[1][0];
+        g[2][0] = c.twoR * a3;
+        g[2][1] = g[1][0];
+        g[2][2] = c.inverseR * a2;
+        g[2][3] = g[1][0];
+        g[2][4] = c.twoR * b3;
+    }
+    static void velocityGradient(const Cell& c, const double* vr, const double* vz, VelocityGradient<4>& g)
+    {
+        velocityGradient(integrals(c), vr, vz, g);
+    }
+
+    /// Mean of the divergence alone.
+    template <class Real>
+    [[gnu::always_inline]] static Real divergence(const Integrals<Real>& c, const Real* vr, const Real* vz)
+    {
+        const auto [a0, a1, a2, a3] = modes(vr);
+        const auto [b0, b1, b2, b3] = modes(vz);
+        return c.twoR * a1 + c.twoZ * (b2 + c.xiCentre * b3) + c.inverseR * a0;
     }
 
     /// Adjoint of velocityGradient.
+    template <class Real>
+    [[gnu::always_inline]] static void addForces(const Integrals<Real>& c, const StressField<4, Real>& s,
+                                                 Real* forceR, Real* forceZ)
+    {
+        addModes<Real>(
+            c.quarter,
+            {c.inverseR * (s[0][2] - c.xiCentre * s[1][2]),
+             c.twoR * s[0][0] + c.inverseR * s[1][2] * (1.0 / 3),
+             c.twoZ * s[0][3] + c.inverseR * s[2][2] * (1.0 / 3),
+             c.twoZ * (c.xiCentre * s[0][3] + c.inertiaXi * s[1][3]) + c.twoR * s[2][0] * (1.0 / 3)},
+            forceR);
+        addModes<Real>(
+            c.quarter,
+            {zero<Real>(), c.twoR * s[0][3], c.twoZ * s[0][1],
+             c.twoZ * (c.xiCentre * s[0][1] + c.inertiaXi * s[1][1]) + c.twoR * s[2][3] * (1.0 / 3)},
+            forceZ);
+    }
     static void addForces(const Cell& c, const StressField<4>& s, double* forceR, double* forceZ)
     {
-        const Weights w(c);
-        const double quarter = 0.25 * c.dr * c.dz * (axisymmetric ? c.r0 + 0.5 * c.dr : 1.0);
-        const double twoR = 2 * c.invDr;
-        const double twoZ = 2 * c.invDz;
-        const double ofXi = w.xiCentre;
-        addModes(quarter,
-                 {w.inverseR * (s[0][2] - ofXi * s[1][2]), twoR * s[0][0] + w.inverseR * s[1][2] / 3,
-                  twoZ * s[0][3] + w.inverseR * s[2][2] / 3,
-                  twoZ * (ofXi * s[0][3] + w.inertiaXi * s[1][3]) + twoR * s[2][0] / 3},
-                 forceR);
-        addModes(quarter,
-                 {0, twoR * s[0][3], twoZ * s[0][1],
-                  twoZ * (ofXi * s[0][1] + w.inertiaXi * s[1][1]) + twoR * s[2][3] / 3},
-                 forceZ);
+        addForces(integrals(c), s, forceR, forceZ);
+    }
+
+    /// Adjoint of divergence: what a pressure of the cell does to its corners.
+    template <class Real>
+    [[gnu::always_inline]] static void addPressure(const Integrals<Real>& c, const Real& pressure,
+                                                   Real* forceR, Real* forceZ)
+    {
+        const Real push = -c.quarter * pressure;
+        addModes<Real>(push, {c.inverseR, c.twoR, zero<Real>(), zero<Real>()}, forceR);
+        addModes<Real>(push, {zero<Real>(), zero<Real>(), c.twoZ, c.twoZ * c.xiCentre}, forceZ);
     }
 
     /// Whether the corners are those of the cell.
@@ -276,28 +446,19 @@ struct Rectangle
     static double size(const Cell& c) { return quadrilateralStep * std::min(c.dr, c.dz); }
 
 private:
-    /// Of the integrals over a cell with the weight r.
-    struct Weights
+    template <class Real>
+    [[gnu::always_inline]] static std::array<Real, 4> modes(const Real* v)
     {
-        explicit Weights(const Cell& c)
-            : inverseR(axisymmetric ? 1 / (c.r0 + 0.5 * c.dr) : 0.0), xiCentre(c.dr / 6 * inverseR),
-              inertiaXi(1.0 / 3 - xiCentre * xiCentre)
-        {
-        }
-        double inverseR, xiCentre, inertiaXi;
-    };
-
-    static std::array<double, 4> modes(const double* v)
-    {
-        const double lower = v[0] + v[1];
-        const double upper = v[3] + v[2];
-        const double lowerSlope = v[1] - v[0];
-        const double upperSlope = v[2] - v[3];
+        const Real lower = v[0] + v[1];
+        const Real upper = v[3] + v[2];
+        const Real lowerSlope = v[1] - v[0];
+        const Real upperSlope = v[2] - v[3];
         return {0.25 * (upper + lower), 0.25 * (upperSlope + lowerSlope), 0.25 * (upper - lower),
                 0.25 * (upperSlope - lowerSlope)};
     }
 
-    static void addModes(double factor, const std::array<double, 4>& a, double* force)
+    template <class Real>
+    [[gnu::always_inline]] static void addModes(const Real& factor, const std::array<Real, 4>& a, Real* force)
     {
         force[0] -= factor * (a[0] - a[1] - a[2] + a[3]);
         force[1] -= factor * (a[0] + a[1] - a[2] - a[3]);
@@ -348,6 +509,18 @@ struct Quadrilateral
         cell.straight = Straight::make(r, z);
         cell.moments = cell.isStraight ? Straight::moments(cell.straight) : integrate(cell);
         return cell;
+    }
+
+    static constexpr int lanes = 1;
+    using FrozenCells = shapes::FrozenCells<Cell>;
+
+    static double divergence(const Cell& c, const double* vr, const double* vz)
+    {
+        return shapes::divergence(meanDilatation(c), vr, vz);
+    }
+    static void addPressure(const Cell& c, double pressure, double* forceR, double* forceZ)
+    {
+        shapes::addPressure(meanDilatation(c), pressure, forceR, forceZ);
     }
 
     /// Whether the corners are those of the cell.
@@ -544,6 +717,18 @@ struct Triangle
             c.dz[k] = (r[b] - r[a]) / (2 * c.area);
         }
         return c;
+    }
+
+    static constexpr int lanes = 1;
+    using FrozenCells = shapes::FrozenCells<Cell>;
+
+    static double divergence(const Cell& c, const double* vr, const double* vz)
+    {
+        return shapes::divergence(meanDilatation(c), vr, vz);
+    }
+    static void addPressure(const Cell& c, double pressure, double* forceR, double* forceZ)
+    {
+        shapes::addPressure(meanDilatation(c), pressure, forceR, forceZ);
     }
 
     static bool contains(const Cell& c, double r, double z)

@@ -111,35 +111,69 @@ private:
         bool pressed, sticks;
     };
 
-    /// A cell whose points rest (FemKernels.h). Its mean stress stands in femStress_.
+    /// A cell whose points rest (FemKernels.h).
     struct FemCell
     {
-        int material;
-        bool restedBefore;              ///< so its nodes have their velocities already
-        double mass[corners];           ///< of the solid, of the whole cell, not scaled
-        double slopeXi[4], slopeEta[4]; ///< of the stress [Pa]
-        double shareXi, shareEta;       ///< of the slopes at the points that the cell has (kernels::Spread)
-        double stressBefore[4];         ///< mean stress before the last step [Pa]
-        shapes::VelocityGradient<corners> strain; ///< since the points rest: that times time
-        double dilatation;                        ///< since the points rest
+        int cell, material;
+        bool restedBefore;    ///< so its nodes have their velocities already
+        bool inner;           ///< all of its nodes are inner ones
+        double mass[corners]; ///< of the solid, of the whole cell, not scaled
+    };
+
+    /// What such cells compute with, all of them.
+    struct FemFields
+    {
+        std::vector<std::array<int, corners>> node;           ///< among the nodes of such cells
+        std::array<std::vector<double>, 4> stress;            ///< mean [Pa]
+        std::array<std::vector<double>, 4> stressBefore;      ///< the same, before the last step [Pa]
+        std::array<std::vector<double>, 4> slopeXi, slopeEta; ///< of the stress [Pa]
+        std::array<std::vector<double>, 4> strain;            ///< increments of the step
+        std::vector<double> spin;                             ///< in the step
+        std::vector<double> shareXi,
+            shareEta;                   ///< of the slopes at the points that a cell has (kernels::Spread)
+        std::vector<double> dilatation; ///< since the points rest
+        std::vector<double> pressure;   ///< of the liquid in excess, mean [Pa]
+        std::vector<double> porosity;   ///< mean
+        std::vector<std::vector<double>> state; ///< variables of the laws
+
+        void resize(std::size_t size);
     };
 
     /// The liquid of such a cell.
     struct FemLiquidCell
     {
         double mass[corners], drag[corners], volume[corners], poreVolume[corners]; ///< as in LiquidCorner
-        double pressure; ///< mean excess pore pressure [Pa]
-        double porosity; ///< mean
     };
 
-    /// What has happened at a node of such cells since their points rest.
+    /// A node of such cells, and what the points will have to catch up with.
     struct FemNode
     {
+        int node;
         double placeR = 0, placeZ = 0;       ///< displacement of the points [m]
         double dvr = 0, dvz = 0;             ///< change of velocity [m/s]
         double relativeR = 0, relativeZ = 0; ///< of the relative velocity of the liquid [m/s]
-        double keep = 1;                     ///< share of a relative velocity that drag has left
+    };
+
+    /// Velocity of such a node and, of two phases, that of its liquid relative to it [m/s].
+    using FemMotion = std::array<double, twoPhase ? 4 : 2>;
+    /// Of a cell at rest on one of its corners: of its stress and, of two phases, of its excess pressure.
+    using FemForce = std::array<double, twoPhase ? 4 : 2>;
+
+    /// What has happened at such a node in all steps since the points rest.
+    struct FemHistory
+    {
+        double strainR = 0, strainZ = 0; ///< displacement by the new velocities, which strain the cells [m]
+        double keep = 1;                 ///< share of a relative velocity that drag has left
         double mayMove = std::numeric_limits<double>::max(); ///< the points, before they must catch up [m]
+    };
+
+    /// An inner node lies among cells at rest only and nothing but they acts on it: its masses stay, its
+    /// momentum is that of its own velocity, and only forces have to be summed.
+    struct FemInner
+    {
+        double inverseMass, weightR, weightZ;
+        double inverseLiquidMass, drag, porosity,
+            liquidShare; ///< drag: not times the step; share: of the mass
     };
 
     /// work(cell) for all active cells, or work(node) for all active nodes, on all threads.
@@ -155,10 +189,15 @@ private:
     template <class Work>
     void forNodes(const Work& work) const
     {
-        const int count = static_cast<int>(activeNodes_.size());
+        forNodesOf(activeNodes_, work);
+    }
+    template <class Work>
+    void forNodesOf(const std::vector<int>& nodes, const Work& work) const
+    {
+        const int count = static_cast<int>(nodes.size());
         threads_.run([&](int part) {
             for (int i = threads_.first(count, part); i < threads_.first(count, part + 1); ++i) {
-                work(activeNodes_[i]);
+                work(nodes[i]);
             }
         });
     }
@@ -196,7 +235,7 @@ private:
     void updateDilatationRows(const State& state, double dt);
     void multiplyPressures(const Eigen::VectorXd& x, Eigen::VectorXd& product);
     void factorisePressures();
-    void solveTwoPhaseNode(int i, const Corner& solid, double dt);
+    void solveTwoPhaseNode(int i, const Corner& solid, const LiquidCorner& sum, double dt);
     void solveLiquidAgain(int i, const std::array<double, 2>& direction);
     void applyLiquidConditions(double time, bool remapped);
     void applyConditions(double time, bool remapped);
@@ -224,12 +263,24 @@ private:
     [[nodiscard]] bool resting(int c) const { return !femOf_.empty() && femOf_[c] >= 0; }
     [[nodiscard]] bool mayRest(const State& state, int c, double interval) const;
     void chooseFemCells(const State& state);
-    void mapFemCellToNodes(const State& state, int c);
+    void numberFemNodes();
+    void sumInnerNodes();
+    void mapFemCellsToNodes(const State& state);
+    template <class Real>
+    void addFemForces(const State& state, int f, int count);
+    void mapFemEdgeToNodes(int f);
+    void solveInnerNodes(double dt);
+    [[nodiscard]] Corner gatherSolid(int i) const;
+    [[nodiscard]] LiquidCorner gatherLiquid(int i) const;
     void keepFemMomentum(int c);
-    [[nodiscard]] double tangentShare(int f);
-    void strainFemCell(State& state, double dt, int c);
-    void updateFemStress();
+    template <class Real>
+    [[nodiscard]] Real tangentShare(int f, int count);
+    void strainFemCells(State& state, double dt, int f, int count);
+    void updateFemCells(State& state, double dt);
     void accumulateFemNodes(double dt);
+    void returnInnerMotion();
+    void findOuterNodes();
+    [[nodiscard]] StableStep femStep(const State& state) const;
     void wakeFemCells(State& state);
     void wakeFemCell(State& state, int c);
     void moveBodiesAndMesh(State& state, double dt);
@@ -240,6 +291,7 @@ private:
     [[nodiscard]] double waveStep(const State& state, int c) const;
     [[nodiscard]] double laggedDragStep(const State& state, int c, double size) const;
     [[nodiscard]] double fastestWave(const State& state, int c) const;
+    [[nodiscard]] double cellStep(const State& state, int c) const;
 
     const Scene& scene_;
     mutable Threads threads_;
@@ -322,16 +374,26 @@ private:
     std::vector<unsigned char> rests_; ///< per cell: is one
     std::vector<FemCell> femCells_;
     std::vector<FemLiquidCell> femLiquidCells_;
-    std::vector<unsigned char> restless_;  ///< per thread: points have moved too far to rest on
-    std::vector<FemNode> femNodes_;        ///< per node
-    std::vector<int> nodesOfFem_;          ///< nodes of FEM cells
-    std::vector<PointCells::Run> femRuns_; ///< FEM cells of one material
-    std::array<std::vector<double>, 4> femStress_, femStrain_;
-    std::vector<double> femSpin_;
-    std::vector<std::vector<double>> femState_; ///< variables of the laws, [variable][FEM cell]
-    std::vector<double> shearModulus_;          ///< per material [Pa]
-    long femSteps_ = 0;                         ///< steps that the points rest already
-    double femFlip_ = 1;                        ///< share of the FLIP velocity that these steps leave
+    std::vector<unsigned char> restless_;         ///< per thread: points have moved too far to rest on
+    std::vector<FemNode> femNodes_;               ///< nodes of FEM cells: the inner ones, and the others
+    int innerNodes_ = 0;                          ///< of these
+    std::vector<FemMotion> femMotion_, femStart_; ///< per FemNode: now, and when the points came to rest
+    std::vector<FemHistory> femHistory_;          ///< per FemNode
+    std::vector<FemInner> femInner_;              ///< per inner node
+    bool femInnerOld_ = true;
+    double femTime_ = 0;                      ///< since the points rest [s]
+    CompressedRows femCorners_;               ///< around each inner node: FEM cell * corners + corner
+    std::vector<FemForce> femForces_;         ///< per corner of the FEM cells
+    typename Shape::FrozenCells femShapes_;   ///< of the FEM cells, when the points came to rest
+    std::vector<unsigned char> innerNode_;    ///< per node
+    std::vector<unsigned char> boundaryNode_; ///< per node: on the boundary of the mesh
+    std::vector<int> outerNodes_;             ///< active nodes that are no inner ones
+    mutable StableStep femStep_{};            ///< that FEM cells allow; 0 where not known
+    std::vector<PointCells::Run> femRuns_;    ///< FEM cells of one material
+    FemFields fem_;
+    std::vector<double> shearModulus_; ///< per material [Pa]
+    long femSteps_ = 0;                ///< steps that the points rest already
+    double femFlip_ = 1;               ///< share of the FLIP velocity that these steps leave
     CellLocator locator_;
 };
 

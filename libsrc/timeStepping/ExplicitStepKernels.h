@@ -161,6 +161,16 @@ ExplicitStep<Shape, phases>::ExplicitStep(const Scene& scene, State& state)
     }
     pointCentre_.resize(cells);
     restless_.resize(threads_.count());
+    if (scene.controls.mayHaveFemCells()) {
+        innerNode_.resize(mesh.nodes());
+        boundaryNode_.resize(mesh.nodes());
+        for (int k = 0; k < static_cast<int>(mesh.neighbour.size()); ++k) {
+            if (mesh.neighbour[k] < 0) {
+                boundaryNode_[mesh.cellNodes[k]] = 1;
+                boundaryNode_[mesh.cellNodes[k - k % corners + (k + 1) % corners]] = 1;
+            }
+        }
+    }
     cornerSums_.resize(cells * corners);
     nodes_.resize(mesh.nodes());
     looseNode_.resize(mesh.nodes());
@@ -231,6 +241,7 @@ void ExplicitStep<Shape, phases>::rebuild(State& state)
 {
     if (femSteps_ > 0) {
         wakeFemCells(state);
+        updateCells(state);
         relocate(state, false);
     }
     rests_.clear();
@@ -260,6 +271,9 @@ void ExplicitStep<Shape, phases>::updateCells(const State& state)
         double r[corners];
         double z[corners];
         for (int c = threads_.first(cells, part); c < threads_.first(cells, part + 1); ++c) {
+            if (resting(c)) {
+                continue;
+            }
             for (int k = 0; k < corners; ++k) {
                 r[k] = state.mesh.r[cellNodes_[c * corners + k]];
                 z[k] = state.mesh.z[cellNodes_[c * corners + k]];
@@ -281,7 +295,7 @@ void ExplicitStep<Shape, phases>::divideCells()
 {
     long long total = 0;
     for (const int c : activeCells_) {
-        total += (resting(c) ? 1 : pointCells_.count(c)) + 1;
+        total += resting(c) ? 0 : pointCells_.count(c) + 1;
     }
     const int threads = threads_.count();
     long long sum = 0;
@@ -290,7 +304,7 @@ void ExplicitStep<Shape, phases>::divideCells()
         for (; part < threads && sum * threads >= total * part; ++part) {
             cellPart_[part] = static_cast<int>(i);
         }
-        sum += (resting(activeCells_[i]) ? 1 : pointCells_.count(activeCells_[i])) + 1;
+        sum += resting(activeCells_[i]) ? 0 : pointCells_.count(activeCells_[i]) + 1;
     }
     for (; part <= threads; ++part) {
         cellPart_[part] = static_cast<int>(activeCells_.size());
@@ -364,6 +378,7 @@ void ExplicitStep<Shape, phases>::classifyCells(State& state)
     }
     if (sorted) {
         divideCells();
+        findOuterNodes();
     }
     const bool mixed = scene_.controls.integration == SolutionControls::Integration::mixed;
     forCells([&](int c) {
@@ -407,6 +422,8 @@ double ExplicitStep<Shape, phases>::waveStep(const State& state, int c) const
 template <class Shape, int phases>
 void ExplicitStep<Shape, phases>::scaleInertia(const State& state)
 {
+    femInnerOld_ = true;
+    femStep_.step = 0;
     if (!scene_.controls.scaleSmallCells) {
         std::ranges::fill(inertiaScale_, state.massScaling);
         return;
@@ -444,22 +461,31 @@ double ExplicitStep<Shape, phases>::laggedDragStep(const State& state, int c, do
     return (std::sqrt(4 * a * a + 8 * sum) - 2 * a) / sum;
 }
 
+/// Step that a cell allows with its inertia [s].
+template <class Shape, int phases>
+double ExplicitStep<Shape, phases>::cellStep(const State& state, int c) const
+{
+    const double step = waveStep(state, c) * std::sqrt(inertiaScale_[c]);
+    return twoPhase && scene_.controls.drag == SolutionControls::Drag::lagged
+               ? std::min(step, laggedDragStep(state, c, Shape::size(cells_[c])))
+               : step;
+}
+
 template <class Shape, int phases>
 StableStep ExplicitStep<Shape, phases>::stableStep(const State& state) const
 {
     // Linear bulk viscosity b shortens the step by sqrt(1 + b^2) - b.
     const double b = scene_.controls.linearBulkViscosity;
     const double viscous = std::sqrt(1 + b * b) - b;
-    const bool lagged = twoPhase && scene_.controls.drag == SolutionControls::Drag::lagged;
     threads_.run([&](int part) {
         StableStep& least = shortest_[part];
         least.step = std::numeric_limits<double>::max();
         for (int i = cellPart_[part]; i < cellPart_[part + 1]; ++i) {
             const int c = activeCells_[i];
-            double step = waveStep(state, c) * std::sqrt(inertiaScale_[c]);
-            if (lagged) {
-                step = std::min(step, laggedDragStep(state, c, Shape::size(cells_[c])));
+            if (resting(c)) {
+                continue;
             }
+            const double step = cellStep(state, c);
             if (step < least.step) {
                 least = {step, c, 0, 0};
             }
@@ -467,6 +493,9 @@ StableStep ExplicitStep<Shape, phases>::stableStep(const State& state) const
     });
     const auto less = [](const StableStep& one, const StableStep& other) { return one.step < other.step; };
     StableStep result = *std::ranges::min_element(shortest_, less);
+    if (!femCells_.empty()) {
+        result = std::min(result, femStep(state), less);
+    }
     result.step *= viscous;
     result.waveSpeed = fastestWave(state, result.cell);
     result.size = Shape::size(cells_[result.cell]);
@@ -534,6 +563,9 @@ void ExplicitStep<Shape, phases>::advance(State& state, double dt)
     }
     mapToNodes(state);
     solveNodes(state, dt);
+    if (femSteps_ > 0) {
+        solveInnerNodes(dt);
+    }
     if constexpr (twoPhase) {
         if (projects()) {
             project(state, dt);
@@ -549,7 +581,9 @@ void ExplicitStep<Shape, phases>::advance(State& state, double dt)
     for (std::size_t b = 0; b < state.bodies.size(); ++b) {
         state.reactions[b].force = (state.reactions[b].totalVerticalImpulse() - impulseBefore_[b]) / dt;
     }
-    accumulateFemNodes(dt);
+    if (!femCells_.empty()) {
+        accumulateFemNodes(dt);
+    }
     mapToPoints(state, dt);
     if constexpr (twoPhase) {
         if (scene_.controls.checkerboardFilter > 0 && state.step % filterInterval == 0) {
@@ -557,7 +591,9 @@ void ExplicitStep<Shape, phases>::advance(State& state, double dt)
         }
     }
     updateStress(state, false);
-    updateFemStress();
+    if (!femCells_.empty()) {
+        updateFemCells(state, dt);
+    }
     const int sortInterval = scene_.controls.sortInterval;
     const bool sorts = (sortInterval > 0 && (state.step + 1) % sortInterval == 0) ||
                        std::ranges::any_of(restless_, [](unsigned char is) { return is != 0; });
@@ -834,9 +870,9 @@ void ExplicitStep<Shape, phases>::mapCellToNodes(State& state, int c)
         for (int j = 0; j < 4; ++j) {
             stress[j] = s[j] * inverse + (j < 3 ? viscousStress : 0);
         }
-        FemCell* const fem = resting(c) ? &femCells_[femOf_[c]] : nullptr;
-        for (int k = 0; fem && k < corners; ++k) {
-            fem->mass[k] = fullness_[c] * mass[k];
+        const int f = resting(c) ? femOf_[c] : -1;
+        for (int k = 0; f >= 0 && k < corners; ++k) {
+            femCells_[f].mass[k] = fullness_[c] * mass[k];
         }
         if constexpr (corners == 4) {
             // What varies over a cell at rest is known from its weight, wherever the points are: only the
@@ -873,16 +909,18 @@ void ExplicitStep<Shape, phases>::mapCellToNodes(State& state, int c)
                     slopeEta[j] -= dy;
                 }
             }
-            if (fem) {
-                fem->shareXi = spread.xx / (spread.xx + kernels::Spread::ridge);
-                fem->shareEta = spread.yy / (spread.yy + kernels::Spread::ridge);
-                std::copy_n(slopeXi, 4, fem->slopeXi);
-                std::copy_n(slopeEta, 4, fem->slopeEta);
+            if (f >= 0) {
+                fem_.shareXi[f] = spread.xx / (spread.xx + kernels::Spread::ridge);
+                fem_.shareEta[f] = spread.yy / (spread.yy + kernels::Spread::ridge);
+                for (int j = 0; j < 4; ++j) {
+                    fem_.slopeXi[j][f] = slopeXi[j];
+                    fem_.slopeEta[j][f] = slopeEta[j];
+                }
             }
         }
         Shape::addForces(cell, field, forceR, forceZ);
-        for (int j = 0; fem && j < 4; ++j) {
-            femStress_[j][femOf_[c]] = stress[j] - (j < 3 ? viscousStress : 0);
+        for (int j = 0; f >= 0 && j < 4; ++j) {
+            fem_.stress[j][f] = stress[j] - (j < 3 ? viscousStress : 0);
         }
     } else {
         fullness_[c] = 1;
@@ -979,9 +1017,12 @@ void ExplicitStep<Shape, phases>::mapToNodes(State& state)
     for (std::size_t l = 0; loaded && l < pointTraction_.size(); ++l) {
         pointTraction_[l] = scene_.pointLoads[l].traction(state.time, loadedArea_[l]);
     }
+    const bool asElements = femSteps_ > 0;
+    if (asElements) {
+        mapFemCellsToNodes(state);
+    }
     forCells([&](int c) {
-        if (femSteps_ > 0 && resting(c)) {
-            mapFemCellToNodes(state, c);
+        if (asElements && resting(c)) {
             return;
         }
         mapCellToNodes(state, c);
@@ -999,22 +1040,29 @@ void ExplicitStep<Shape, phases>::mapToNodes(State& state)
 }
 
 template <class Shape, int phases>
+typename ExplicitStep<Shape, phases>::Corner ExplicitStep<Shape, phases>::gatherSolid(int i) const
+{
+    Corner sum{};
+    for (int k = nodeCorners_.start[i]; k < nodeCorners_.start[i + 1]; ++k) {
+        const Corner& corner = cornerSums_[nodeCorners_.item[k]];
+        sum.mass += corner.mass;
+        sum.momentumR += corner.momentumR;
+        sum.momentumZ += corner.momentumZ;
+        sum.forceR += corner.forceR;
+        sum.forceZ += corner.forceZ;
+        sum.fullMass += corner.fullMass;
+    }
+    return sum;
+}
+
+template <class Shape, int phases>
 void ExplicitStep<Shape, phases>::solveNodes(State& state, double dt)
 {
     const double damping = scene_.controls.localDamping;
     const bool tractions = scene_.conditions.hasTractions();
     const bool seepage = !twoPhase && !seepage_.empty();
-    forNodes([&](int i) {
-        Corner sum{};
-        for (int k = nodeCorners_.start[i]; k < nodeCorners_.start[i + 1]; ++k) {
-            const Corner& corner = cornerSums_[nodeCorners_.item[k]];
-            sum.mass += corner.mass;
-            sum.momentumR += corner.momentumR;
-            sum.momentumZ += corner.momentumZ;
-            sum.forceR += corner.forceR;
-            sum.forceZ += corner.forceZ;
-            sum.fullMass += corner.fullMass;
-        }
+    forNodesOf(femSteps_ > 0 ? outerNodes_ : activeNodes_, [&](int i) {
+        Corner sum = gatherSolid(i);
         Node& node = nodes_[i];
         node.mass = sum.mass;
         looseNode_[i] = surfaceNode_[i] != 0 || sum.mass < kernels::looseShare * sum.fullMass;
@@ -1034,7 +1082,7 @@ void ExplicitStep<Shape, phases>::solveNodes(State& state, double dt)
             sum.forceZ += waterLoad_[i][1];
         }
         if constexpr (twoPhase) {
-            solveTwoPhaseNode(i, sum, dt);
+            solveTwoPhaseNode(i, sum, gatherLiquid(i), dt);
             return;
         }
         const double inverse = 1 / sum.mass;
@@ -1592,12 +1640,16 @@ void ExplicitStep<Shape, phases>::mapToPoints(State& state, double dt)
         }
     }
     if (nodalAverage) {
+        if (femSteps_ > 0) {
+            returnInnerMotion();
+        }
         averageDilatationAtNodes();
     }
     forCells([&](int c) {
         if (resting(c)) {
-            strainFemCell(state, dt, c);
-        } else if (later(c)) {
+            return;
+        }
+        if (later(c)) {
             mapCellToPoints<false, true>(state, dt, c);
         } else {
             mapCellToPoints<true, true>(state, dt, c);

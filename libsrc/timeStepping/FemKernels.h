@@ -2,6 +2,8 @@
 
 #include "timeStepping/LiquidKernels.h"
 
+#include <numeric>
+
 // Finite elements among the cells of material points. Well inside the soil points move by a small part of a
 // cell from one sort of the points to the next: there they rest, and their cell stands for them. It has the
 // stress that filled cells have anyhow, mean and slopes over the cell, sampled from its points in the first
@@ -45,6 +47,23 @@ bool ExplicitStep<Shape, phases>::mayRest(const State& state, int c, double inte
 }
 
 template <class Shape, int phases>
+void ExplicitStep<Shape, phases>::FemFields::resize(std::size_t size)
+{
+    for (auto* four : {&stress, &stressBefore, &slopeXi, &slopeEta, &strain}) {
+        for (std::vector<double>& component : *four) {
+            component.resize(size);
+        }
+    }
+    for (auto* values : {&spin, &shareXi, &shareEta, &pressure, &porosity}) {
+        values->resize(size);
+    }
+    dilatation.assign(size, 0);
+    for (std::vector<double>& variable : state) {
+        variable.resize(size);
+    }
+}
+
+template <class Shape, int phases>
 void ExplicitStep<Shape, phases>::chooseFemCells(const State& state)
 {
     const SolutionControls& controls = scene_.controls;
@@ -53,6 +72,7 @@ void ExplicitStep<Shape, phases>::chooseFemCells(const State& state)
     }
     const MaterialPoints& points = state.points;
     femOf_.assign(cells_.size(), -1);
+    femCells_.clear();
     const std::vector<unsigned char> restedBefore = rests_;
     rests_.assign(cells_.size(), 0);
     std::vector<unsigned char> near(nodes_.size());
@@ -105,6 +125,7 @@ void ExplicitStep<Shape, phases>::chooseFemCells(const State& state)
     femRuns_.clear();
     for (int f = 0; f < static_cast<int>(chosen.size()); ++f) {
         const int c = chosen[f];
+        femCells_[f].cell = c;
         femCells_[f].material = material(c);
         femCells_[f].restedBefore = !restedBefore.empty() && restedBefore[c] != 0;
         femOf_[c] = f;
@@ -113,83 +134,334 @@ void ExplicitStep<Shape, phases>::chooseFemCells(const State& state)
         }
         femRuns_.back().end = f + 1;
     }
-    for (int j = 0; j < 4; ++j) {
-        femStress_[j].resize(chosen.size());
-        femStrain_[j].resize(chosen.size());
-    }
-    femSpin_.resize(chosen.size());
-    femState_.resize(points.state.size());
-    for (std::size_t k = 0; k < femState_.size(); ++k) {
-        femState_[k].resize(chosen.size());
+    fem_.state.resize(points.state.size());
+    fem_.resize(chosen.size());
+    for (std::size_t k = 0; k < fem_.state.size(); ++k) {
         for (std::size_t f = 0; f < chosen.size(); ++f) {
             double sum = 0;
             for (const int* p = pointCells_.begin(chosen[f]); p != pointCells_.end(chosen[f]); ++p) {
                 sum += points.state[k][*p];
             }
-            femState_[k][f] = sum / pointCells_.count(chosen[f]);
+            fem_.state[k][f] = sum / pointCells_.count(chosen[f]);
         }
     }
-    femNodes_.assign(nodes_.size(), {});
-    nodesOfFem_.clear();
-    std::vector<unsigned char>& ofFem = near;
-    std::ranges::fill(ofFem, 0);
-    for (const int c : chosen) {
-        const double mayMove = controls.femMotion * Shape::size(cells_[c]);
+    femShapes_.resize(chosen.size());
+    for (std::size_t f = 0; f < chosen.size(); ++f) {
+        femShapes_.set(static_cast<int>(f), cells_[chosen[f]]);
+    }
+    femForces_.resize(chosen.size() * corners);
+    numberFemNodes();
+}
+
+/// Lists the nodes of the cells at rest, the inner ones first, and what meets at these.
+template <class Shape, int phases>
+void ExplicitStep<Shape, phases>::numberFemNodes()
+{
+    // These change the velocities that the forces give a node, or ask it for more.
+    const bool mayBeInner = !projects() && scene_.controls.drag == SolutionControls::Drag::implicit;
+    std::ranges::fill(innerNode_, 0);
+    std::vector<int> numberOf(nodes_.size(), -1);
+    std::vector<int> outer;
+    femNodes_.clear();
+    for (const FemCell& fem : femCells_) {
         for (int k = 0; k < corners; ++k) {
-            const int i = cellNodes_[c * corners + k];
-            ofFem[i] = 1;
-            femNodes_[i].mayMove = std::min(femNodes_[i].mayMove, mayMove);
+            const int i = cellNodes_[fem.cell * corners + k];
+            if (numberOf[i] >= 0) {
+                continue;
+            }
+            numberOf[i] = 0;
+            bool inner = mayBeInner && boundaryNode_[i] == 0 && contactNode_[i] == 0;
+            for (int j = nodeCorners_.start[i]; inner && j < nodeCorners_.start[i + 1]; ++j) {
+                inner = rests_[nodeCorners_.item[j] / corners] != 0;
+            }
+            innerNode_[i] = inner;
+            if (inner) {
+                femNodes_.push_back({i});
+            } else {
+                outer.push_back(i);
+            }
         }
     }
-    std::ranges::copy_if(activeNodes_, std::back_inserter(nodesOfFem_), [&](int i) { return ofFem[i] != 0; });
+    innerNodes_ = static_cast<int>(femNodes_.size());
+    for (const int i : outer) {
+        femNodes_.push_back({i});
+    }
+    for (int j = 0; j < static_cast<int>(femNodes_.size()); ++j) {
+        numberOf[femNodes_[j].node] = j;
+    }
+    femMotion_.resize(femNodes_.size());
+    femStart_.resize(femNodes_.size());
+    femHistory_.assign(femNodes_.size(), {});
+    femCorners_.start.assign(innerNodes_ + 1, 0);
+    fem_.node.resize(femCells_.size());
+    for (std::size_t f = 0; f < femCells_.size(); ++f) {
+        FemCell& fem = femCells_[f];
+        const double mayMove = scene_.controls.femMotion * Shape::size(cells_[fem.cell]);
+        fem.inner = true;
+        for (int k = 0; k < corners; ++k) {
+            const int j = numberOf[cellNodes_[fem.cell * corners + k]];
+            fem_.node[f][k] = j;
+            fem.inner = fem.inner && j < innerNodes_;
+            femHistory_[j].mayMove = std::min(femHistory_[j].mayMove, mayMove);
+            if (j < innerNodes_) {
+                ++femCorners_.start[j + 1];
+            }
+        }
+    }
+    std::partial_sum(femCorners_.start.begin(), femCorners_.start.end(), femCorners_.start.begin());
+    femCorners_.item.resize(femCorners_.start.back());
+    std::vector<int> cursor(femCorners_.start.begin(), femCorners_.start.end() - 1);
+    for (int f = 0; f < static_cast<int>(femCells_.size()); ++f) {
+        for (int k = 0; k < corners; ++k) {
+            if (fem_.node[f][k] < innerNodes_) {
+                femCorners_.item[cursor[fem_.node[f][k]]++] = f * corners + k;
+            }
+        }
+    }
+    femInner_.resize(innerNodes_);
+    femInnerOld_ = true;
+    femStep_.step = 0;
+    findOuterNodes();
 }
 
 template <class Shape, int phases>
-void ExplicitStep<Shape, phases>::mapFemCellToNodes(const State& state, int c)
+void ExplicitStep<Shape, phases>::findOuterNodes()
 {
-    const FemCell& fem = femCells_[femOf_[c]];
-    const int material = fem.material;
-    const double viscous = viscousStress(state, c, material);
-    double forceR[corners], forceZ[corners];
-    const double weighing = gravityShare_[material] / (twoPhase ? solidShare_[material] : 1.0);
-    for (int k = 0; k < corners; ++k) {
-        forceR[k] = fem.mass[k] * weighing * scene_.gravity[0];
-        forceZ[k] = fem.mass[k] * weighing * scene_.gravity[1];
+    outerNodes_.clear();
+    for (const int i : activeNodes_) {
+        if (innerNode_.empty() || innerNode_[i] == 0) {
+            outerNodes_.push_back(i);
+        }
     }
-    const int f = femOf_[c];
-    shapes::StressField<corners> stress;
-    for (int j = 0; j < 4; ++j) {
-        stress[0][j] = femStress_[j][f] + (j < 3 ? viscous : 0);
-    }
-    if constexpr (corners == 4) {
-        std::copy_n(fem.slopeXi, 4, stress[1]);
-        std::copy_n(fem.slopeEta, 4, stress[2]);
-    }
-    Shape::addForces(cells_[c], stress, forceR, forceZ);
+}
 
-    const double inertia = inertiaScale_[c];
-    Corner* const out = &cornerSums_[c * corners];
-    for (int k = 0; k < corners; ++k) {
-        const Node& node = nodes_[cellNodes_[c * corners + k]];
-        const double mass = inertia * fem.mass[k];
-        out[k] = {mass, mass * node.vr, mass * node.vz, forceR[k], forceZ[k], mass};
+template <class Shape, int phases>
+void ExplicitStep<Shape, phases>::sumInnerNodes()
+{
+    femInnerOld_ = false;
+    for (int j = 0; j < innerNodes_; ++j) {
+        FemInner inner{};
+        double mass = 0, liquidMass = 0, volume = 0, poreVolume = 0;
+        for (int n = femCorners_.start[j]; n < femCorners_.start[j + 1]; ++n) {
+            const int f = femCorners_.item[n] / corners;
+            const int k = femCorners_.item[n] % corners;
+            const FemCell& fem = femCells_[f];
+            const double weight =
+                fem.mass[k] * gravityShare_[fem.material] / (twoPhase ? solidShare_[fem.material] : 1.0);
+            mass += inertiaScale_[fem.cell] * fem.mass[k];
+            inner.weightR += weight * scene_.gravity[0];
+            inner.weightZ += weight * scene_.gravity[1];
+            if constexpr (twoPhase) {
+                const FemLiquidCell& liquid = femLiquidCells_[f];
+                liquidMass += inertiaScale_[fem.cell] * liquid.mass[k];
+                inner.drag += liquid.drag[k];
+                volume += liquid.volume[k];
+                poreVolume += liquid.poreVolume[k];
+            }
+        }
+        inner.inverseMass = 1 / mass;
+        if constexpr (twoPhase) {
+            inner.inverseLiquidMass = 1 / liquidMass;
+            inner.porosity = poreVolume / volume;
+            inner.liquidShare = liquidMass / (mass + liquidMass);
+        }
+        femInner_[j] = inner;
     }
+}
+
+/// The inner nodes: what solveNodes and accumulateFemNodes do elsewhere, in one go.
+template <class Shape, int phases>
+void ExplicitStep<Shape, phases>::solveInnerNodes(double dt)
+{
+    const double damping = scene_.controls.localDamping;
+    const bool seepage = !twoPhase && !seepage_.empty();
+    const auto solve = [&](int j) {
+        const FemInner& inner = femInner_[j];
+        FemMotion& motion = femMotion_[j];
+        FemForce force{};
+        for (int n = femCorners_.start[j]; n < femCorners_.start[j + 1]; ++n) {
+            const FemForce& ofCell = femForces_[femCorners_.item[n]];
+            for (std::size_t d = 0; d < force.size(); ++d) {
+                force[d] += ofCell[d];
+            }
+        }
+        double forceR = force[0] + inner.weightR;
+        double forceZ = force[1] + inner.weightZ;
+        if (seepage) {
+            forceR += waterLoad_[femNodes_[j].node][0];
+            forceZ += waterLoad_[femNodes_[j].node][1];
+        }
+        FemHistory& history = femHistory_[j];
+        if constexpr (twoPhase) {
+            const double n = inner.porosity;
+            const double ofLiquidR = n * force[2];
+            const double ofLiquidZ = n * force[3];
+            forceR += force[2] - ofLiquidR;
+            forceZ += force[3] - ofLiquidZ;
+            if (damping > 0) { // as in solveTwoPhaseNode
+                forceR -= std::copysign(damping * std::abs(forceR + ofLiquidR), motion[0]);
+                forceZ -= std::copysign(damping * std::abs(forceZ + ofLiquidZ), motion[1]);
+            }
+            const double solidR = dt * forceR * inner.inverseMass;
+            const double solidZ = dt * forceZ * inner.inverseMass;
+            const double freeR = motion[2] + dt * ofLiquidR * inner.inverseLiquidMass - solidR;
+            const double freeZ = motion[3] + dt * ofLiquidZ * inner.inverseLiquidMass - solidZ;
+            const double keep = 1 / (1 + dt * inner.drag * (inner.inverseMass + inner.inverseLiquidMass));
+            const double given = inner.liquidShare * (1 - keep); // by drag, to the solid
+            motion = {motion[0] + solidR + given * freeR, motion[1] + solidZ + given * freeZ, keep * freeR,
+                      keep * freeZ};
+            history.keep *= keep;
+        } else {
+            if (damping > 0) {
+                forceR -= std::copysign(damping * std::abs(forceR), motion[0]);
+                forceZ -= std::copysign(damping * std::abs(forceZ), motion[1]);
+            }
+            motion[0] += dt * forceR * inner.inverseMass;
+            motion[1] += dt * forceZ * inner.inverseMass;
+        }
+        history.strainR += dt * motion[0];
+        history.strainZ += dt * motion[1];
+        return std::max(std::abs(history.strainR), std::abs(history.strainZ)) > history.mayMove;
+    };
+    std::ranges::fill(restless_, 0);
+    threads_.run([&](int part) {
+        bool restless = false;
+        for (int j = threads_.first(innerNodes_, part); j < threads_.first(innerNodes_, part + 1); ++j) {
+            restless = solve(j) || restless;
+        }
+        restless_[part] = restless;
+    });
+}
+
+/// Step that the cells at rest allow.
+template <class Shape, int phases>
+StableStep ExplicitStep<Shape, phases>::femStep(const State& state) const
+{
+    if (femStep_.step == 0) {
+        femStep_.step = std::numeric_limits<double>::max();
+        for (const FemCell& fem : femCells_) {
+            const double step = cellStep(state, fem.cell);
+            if (step < femStep_.step) {
+                femStep_ = {step, fem.cell, 0, 0};
+            }
+        }
+    }
+    return femStep_;
+}
+
+namespace kernels {
+
+/// one/other within 0 and 1, and 1 where other is zero.
+template <class Real>
+Real shareOf(const Real& one, const Real& other)
+{
+    if constexpr (std::is_same_v<Real, double>) {
+        return other > 0 ? std::clamp(one / other, 0.0, 1.0) : 1.0;
+    } else {
+        return (other > 0).select((one / other).max(0.0).min(1.0), 1.0);
+    }
+}
+
+} // namespace kernels
+
+/// What `count` cells at rest from the f-th on put on their corners.
+template <class Shape, int phases>
+template <class Real>
+void ExplicitStep<Shape, phases>::addFemForces(const State& state, int f, int count)
+{
+    const auto& cell = femShapes_.at(f, count);
+    shapes::StressField<corners, Real> stress;
+    for (int j = 0; j < 4; ++j) {
+        stress[0][j] = shapes::lanesOf<Real>(fem_.stress[j], f, count);
+        if constexpr (corners == 4) {
+            stress[1][j] = shapes::lanesOf<Real>(fem_.slopeXi[j], f, count);
+            stress[2][j] = shapes::lanesOf<Real>(fem_.slopeEta[j], f, count);
+        }
+    }
+    if (scene_.controls.linearBulkViscosity != 0 || scene_.controls.quadraticBulkViscosity != 0) {
+        Real viscous = shapes::zero<Real>();
+        for (int l = 0; l < count; ++l) {
+            const FemCell& fem = femCells_[f + l];
+            shapes::setLane(viscous, l, viscousStress(state, fem.cell, fem.material));
+        }
+        for (int j = 0; j < 3; ++j) {
+            stress[0][j] += viscous;
+        }
+    }
+    Real force[twoPhase ? 4 : 2][corners];
+    for (auto& ofCorners : force) {
+        std::fill_n(ofCorners, corners, shapes::zero<Real>());
+    }
+    Shape::addForces(cell, stress, force[0], force[1]);
     if constexpr (twoPhase) {
-        const FemLiquidCell& liquid = femLiquidCells_[f];
-        const auto& dilatation = dilatation_[c];
+        const Real pressure = shapes::lanesOf<Real>(fem_.pressure, f, count);
+        Shape::addPressure(cell, pressure, force[2], force[3]);
+    }
+    for (int l = 0; l < count; ++l) {
+        FemForce* const out = &femForces_[static_cast<std::size_t>(f + l) * corners];
         for (int k = 0; k < corners; ++k) {
-            const Node& node = nodes_[cellNodes_[c * corners + k]];
-            const LiquidNode& old = liquidNodes_[cellNodes_[c * corners + k]];
-            const double mass = inertia * liquid.mass[k];
-            liquidCorners_[c * corners + k] = {mass,
-                                               mass * (node.vr + old.relativeVr),
-                                               mass * (node.vz + old.relativeVz),
-                                               dilatation.volume * liquid.pressure * dilatation.br[k],
-                                               dilatation.volume * liquid.pressure * dilatation.bz[k],
+            for (int j = 0; j < (twoPhase ? 4 : 2); ++j) {
+                out[k][j] = shapes::lane(force[j][k], l);
+            }
+        }
+    }
+}
+
+template <class Shape, int phases>
+void ExplicitStep<Shape, phases>::mapFemCellsToNodes(const State& state)
+{
+    constexpr int lanes = Shape::lanes;
+    if (femInnerOld_) {
+        sumInnerNodes();
+    }
+    const int count = static_cast<int>(femCells_.size());
+    threads_.run([&](int part) {
+        inBlocks(0, count, part, [&](int begin, int end) {
+            for (int f = begin; f < end; f += lanes) {
+                addFemForces<shapes::Lanes<lanes>>(state, f, std::min(lanes, end - f));
+            }
+            for (int f = begin; f < end; ++f) {
+                if (!femCells_[f].inner) {
+                    mapFemEdgeToNodes(f);
+                }
+            }
+        });
+    });
+}
+
+/// A cell at rest beside others: the nodes between them need its masses and momenta.
+template <class Shape, int phases>
+void ExplicitStep<Shape, phases>::mapFemEdgeToNodes(int f)
+{
+    const FemCell& fem = femCells_[f];
+    const int c = fem.cell;
+    const double weighing = gravityShare_[fem.material] / (twoPhase ? solidShare_[fem.material] : 1.0);
+    const double inertia = inertiaScale_[c];
+    for (int k = 0; k < corners; ++k) {
+        const int i = cellNodes_[c * corners + k];
+        const Node& node = nodes_[i];
+        const FemForce& force = femForces_[static_cast<std::size_t>(f) * corners + k];
+        const double mass = inertia * fem.mass[k];
+        const double weight = fem.mass[k] * weighing;
+        cornerSums_[c * corners + k] = {mass,
+                                        mass * node.vr,
+                                        mass * node.vz,
+                                        force[0] + weight * scene_.gravity[0],
+                                        force[1] + weight * scene_.gravity[1],
+                                        mass};
+        if constexpr (twoPhase) {
+            const FemLiquidCell& liquid = femLiquidCells_[f];
+            const LiquidNode& old = liquidNodes_[i];
+            const double liquidMass = inertia * liquid.mass[k];
+            liquidCorners_[c * corners + k] = {liquidMass,
+                                               liquidMass * (node.vr + old.relativeVr),
+                                               liquidMass * (node.vz + old.relativeVz),
+                                               force[2],
+                                               force[3],
                                                liquid.drag[k],
                                                liquid.volume[k],
                                                liquid.poreVolume[k],
-                                               liquid.pressure * liquid.volume[k]};
+                                               fem_.pressure[f] * liquid.volume[k]};
         }
     }
 }
@@ -214,144 +486,212 @@ void ExplicitStep<Shape, phases>::keepFemMomentum(int c)
 template <class Shape, int phases>
 void ExplicitStep<Shape, phases>::accumulateFemNodes(double dt)
 {
-    if (femCells_.empty()) {
-        return;
-    }
     const SolutionControls& controls = scene_.controls;
     femFlip_ *= std::max(0.0, controls.flipShare - (controls.picTime > 0 ? dt / controls.picTime : 0.0));
-    std::ranges::fill(restless_, 0);
-    const auto accumulate = [&](int part, int begin, int end) {
-        for (int j = begin; j < end; ++j) {
-            const int i = nodesOfFem_[j];
-            const Node& node = nodes_[i];
-            FemNode& fem = femNodes_[i];
-            fem.placeR += dt * node.placeVr;
-            fem.placeZ += dt * node.placeVz;
-            fem.dvr += node.dvr;
-            fem.dvz += node.dvz;
-            restless_[part] |= std::max(std::abs(fem.placeR), std::abs(fem.placeZ)) > fem.mayMove;
-            if constexpr (twoPhase) {
-                const LiquidNode& liquid = liquidNodes_[i];
-                fem.relativeR = liquid.keep * (fem.relativeR - liquid.oldRelativeVr) + liquid.relativeVr;
-                fem.relativeZ = liquid.keep * (fem.relativeZ - liquid.oldRelativeVz) + liquid.relativeVz;
-                fem.keep *= liquid.keep;
+    femTime_ += dt;
+    const bool first = femSteps_ == 0; // of inner nodes, too, which go on from here
+    if (first) {
+        std::ranges::fill(restless_, 0);
+    }
+    const auto accumulate = [&](int j) {
+        FemNode& fem = femNodes_[j];
+        FemHistory& history = femHistory_[j];
+        const Node& node = nodes_[fem.node];
+        fem.placeR += dt * node.placeVr;
+        fem.placeZ += dt * node.placeVz;
+        fem.dvr += node.dvr;
+        fem.dvz += node.dvz;
+        history.strainR += dt * node.vr;
+        history.strainZ += dt * node.vz;
+        if constexpr (twoPhase) {
+            const LiquidNode& liquid = liquidNodes_[fem.node];
+            fem.relativeR = liquid.keep * (fem.relativeR - liquid.oldRelativeVr) + liquid.relativeVr;
+            fem.relativeZ = liquid.keep * (fem.relativeZ - liquid.oldRelativeVz) + liquid.relativeVz;
+            history.keep *= liquid.keep;
+            if (first) {
+                femStart_[j] = {node.vr - node.dvr, node.vz - node.dvz, liquid.oldRelativeVr,
+                                liquid.oldRelativeVz};
             }
+        } else if (first) {
+            femStart_[j] = {node.vr - node.dvr, node.vz - node.dvz};
         }
+        return std::max(std::abs(fem.placeR), std::abs(fem.placeZ)) > history.mayMove;
     };
-    const int count = static_cast<int>(nodesOfFem_.size());
+    const int begin = first ? 0 : innerNodes_;
+    const int count = static_cast<int>(femNodes_.size()) - begin;
     threads_.run([&](int part) {
-        inBlocks(0, count, part, [&](int begin, int end) { accumulate(part, begin, end); });
+        for (int j = threads_.first(count, part); j < threads_.first(count, part + 1); ++j) {
+            restless_[part] |= accumulate(begin + j) ? 1 : 0;
+        }
     });
+}
+
+/// Gives the inner nodes their velocities, as the others have them.
+template <class Shape, int phases>
+void ExplicitStep<Shape, phases>::returnInnerMotion()
+{
+    for (int j = 0; j < innerNodes_; ++j) {
+        const FemMotion& motion = femMotion_[j];
+        Node& node = nodes_[femNodes_[j].node];
+        node.vr = motion[0];
+        node.vz = motion[1];
+        if constexpr (twoPhase) {
+            liquidNodes_[femNodes_[j].node].relativeVr = motion[2];
+            liquidNodes_[femNodes_[j].node].relativeVz = motion[3];
+        }
+    }
 }
 
 /// Share of the elastic stiffness in shear that the mean of a cell showed in the step before: 1 where it is
 /// elastic. Slopes that stayed elastic where the mean yields would make the soil round a tip stiffer by
 /// several per cent.
 template <class Shape, int phases>
-double ExplicitStep<Shape, phases>::tangentShare(int f)
+template <class Real>
+[[gnu::always_inline]] inline Real ExplicitStep<Shape, phases>::tangentShare(int f, int count)
 {
-    double(&before)[4] = femCells_[f].stressBefore;
-    double change[4];
+    Real change[4], strain[4];
     for (int j = 0; j < 4; ++j) {
-        change[j] = femStress_[j][f] - before[j];
-        before[j] = femStress_[j][f];
+        const Real now = shapes::lanesOf<Real>(fem_.stress[j], f, count);
+        change[j] = now - shapes::lanesOf<Real>(fem_.stressBefore[j], f, count);
+        strain[j] = shapes::lanesOf<Real>(fem_.strain[j], f, count);
+        shapes::setLanes(fem_.stressBefore[j], f, count, now);
     }
-    if (!scene_.materials[femCells_[f].material].law->plastic() || femSteps_ == 0) {
-        return 1;
+    const int material = femCells_[f].material;
+    if (!scene_.materials[material].law->plastic() || femSteps_ == 0) {
+        return shapes::zero<Real>() + 1;
     }
-    const double shear = shearModulus_[femCells_[f].material];
-    const double dilatation = (femStrain_[0][f] + femStrain_[1][f] + femStrain_[2][f]) / 3;
-    const double pressure = (change[0] + change[1] + change[2]) / 3;
-    double elastic = 2 * shear * femStrain_[3][f] * shear * femStrain_[3][f];
-    double actual = 2 * shear * femStrain_[3][f] * change[3];
+    const double shear = shearModulus_[material];
+    const Real dilatation = (strain[0] + strain[1] + strain[2]) / 3;
+    const Real pressure = (change[0] + change[1] + change[2]) / 3;
+    Real elastic = 2 * shear * shear * strain[3] * strain[3];
+    Real actual = 2 * shear * strain[3] * change[3];
     for (int j = 0; j < 3; ++j) {
-        const double deviator = 2 * shear * (femStrain_[j][f] - dilatation);
+        const Real deviator = 2 * shear * (strain[j] - dilatation);
         elastic += deviator * deviator;
         actual += deviator * (change[j] - pressure);
     }
-    return elastic > 0 ? std::clamp(actual / elastic, 0.0, 1.0) : 1.0;
+    return kernels::shareOf<Real>(actual, elastic);
 }
 
+/// Strains `count` cells at rest of one material, from the f-th on.
 template <class Shape, int phases>
-void ExplicitStep<Shape, phases>::strainFemCell(State& state, double dt, int c)
+void ExplicitStep<Shape, phases>::strainFemCells(State& state, double dt, int f, int count)
 {
-    const int f = femOf_[c];
-    FemCell& fem = femCells_[f];
-    double vr[corners], vz[corners];
-    for (int k = 0; k < corners; ++k) {
-        vr[k] = nodes_[cellNodes_[c * corners + k]].vr;
-        vz[k] = nodes_[cellNodes_[c * corners + k]].vz;
-    }
-    shapes::VelocityGradient<corners> rate;
-    Shape::velocityGradient(cells_[c], vr, vz, rate);
-    if constexpr (corners == 4) {
-        const double shear = tangentShare(f) * shearModulus_[fem.material] * dt;
-        const auto updateSlopes = [&](const double(&slope)[5], double share, double(&stress)[4]) {
-            const double third = (slope[0] + slope[1] + slope[2]) / 3; // all points share one dilatation
-            for (int j = 0; j < 3; ++j) {
-                stress[j] += 2 * share * shear * (slope[j] - third);
-            }
-            stress[3] += share * shear * (slope[3] + slope[4]);
-        };
-        updateSlopes(rate[1], fem.shareXi, fem.slopeXi);
-        updateSlopes(rate[2], fem.shareEta, fem.slopeEta);
-    }
-    for (int m = 0; m < momentCount; ++m) {
-        for (int j = 0; j < 5; ++j) {
-            fem.strain[m][j] += dt * rate[m][j];
-        }
-    }
+    using Real = shapes::Lanes<Shape::lanes>;
     const bool nodalAverage = scene_.controls.locking == SolutionControls::Locking::nodalAverage;
-    const double own = rate[0][0] + rate[0][1] + rate[0][2];
-    const double trace = nodalAverage ? cellRate_[c] : own;
-    const double shift = (trace - own) / 3;
-    fem.dilatation += dt * trace;
-    state.cellDivergence[c] = trace;
-    for (int j = 0; j < 3; ++j) {
-        femStrain_[j][f] = dt * (rate[0][j] + shift);
-    }
-    femStrain_[3][f] = dt * (rate[0][3] + rate[0][4]);
-    femSpin_[f] = 0.5 * dt * (rate[0][4] - rate[0][3]);
-    if constexpr (twoPhase) {
-        double liquidTrace = nodalAverage ? cellLiquidRate_[c] : trace;
-        for (int k = 0; !nodalAverage && k < corners; ++k) {
-            const LiquidNode& node = liquidNodes_[cellNodes_[c * corners + k]];
-            liquidTrace += dilatation_[c].br[k] * node.relativeVr + dilatation_[c].bz[k] * node.relativeVz;
+    const int material = femCells_[f].material;
+    const auto& cell = femShapes_.at(f, count);
+    Real vr[corners], vz[corners];
+    [[maybe_unused]] Real relativeR[corners], relativeZ[corners];
+    for (int l = 0; l < Shape::lanes; ++l) {
+        const std::array<int, corners>& at = fem_.node[f + std::min(l, count - 1)];
+        for (int k = 0; k < corners; ++k) {
+            const FemMotion& motion = femMotion_[at[k]];
+            shapes::setLane(vr[k], l, motion[0]);
+            shapes::setLane(vz[k], l, motion[1]);
+            if constexpr (twoPhase) {
+                shapes::setLane(relativeR[k], l, motion[2]);
+                shapes::setLane(relativeZ[k], l, motion[3]);
+            }
         }
-        FemLiquidCell& liquid = femLiquidCells_[f];
-        const double n = liquid.porosity;
-        liquid.pressure +=
-            projects() ? pressureStep_[c]
-                       : -dt * liquid_[fem.material].bulkModulus / n * ((1 - n) * trace + n * liquidTrace);
+    }
+    shapes::VelocityGradient<corners, Real> rate;
+    Shape::velocityGradient(cell, vr, vz, rate);
+    if constexpr (corners == 4) {
+        const Real shear = tangentShare<Real>(f, count) * (shearModulus_[material] * dt);
+        const auto updateSlopes = [&](const Real(&slope)[5], const std::vector<double>& shareAtPoints,
+                                      std::array<std::vector<double>, 4>& stress) {
+            const Real share = shear * shapes::lanesOf<Real>(shareAtPoints, f, count);
+            const Real third = (slope[0] + slope[1] + slope[2]) / 3; // all points share one dilatation
+            for (int j = 0; j < 3; ++j) {
+                const Real sum = shapes::lanesOf<Real>(stress[j], f, count) + 2 * share * (slope[j] - third);
+                shapes::setLanes(stress[j], f, count, sum);
+            }
+            const Real sum = shapes::lanesOf<Real>(stress[3], f, count) + share * (slope[3] + slope[4]);
+            shapes::setLanes(stress[3], f, count, sum);
+        };
+        updateSlopes(rate[1], fem_.shareXi, fem_.slopeXi);
+        updateSlopes(rate[2], fem_.shareEta, fem_.slopeEta);
+    }
+    const Real own = rate[0][0] + rate[0][1] + rate[0][2];
+    Real trace = own;
+    for (int l = 0; nodalAverage && l < count; ++l) {
+        shapes::setLane(trace, l, cellRate_[femCells_[f + l].cell]);
+    }
+    const Real shift = (trace - own) / 3;
+    for (int j = 0; j < 3; ++j) {
+        const Real strain = dt * (rate[0][j] + shift);
+        shapes::setLanes(fem_.strain[j], f, count, strain);
+    }
+    const Real shear = dt * (rate[0][3] + rate[0][4]);
+    const Real spin = 0.5 * dt * (rate[0][4] - rate[0][3]);
+    const Real dilatation = shapes::lanesOf<Real>(fem_.dilatation, f, count) + dt * trace;
+    shapes::setLanes(fem_.strain[3], f, count, shear);
+    shapes::setLanes(fem_.spin, f, count, spin);
+    shapes::setLanes(fem_.dilatation, f, count, dilatation);
+    for (int l = 0; l < count; ++l) {
+        state.cellDivergence[femCells_[f + l].cell] = shapes::lane(trace, l);
+    }
+    if constexpr (twoPhase) {
+        Real flow = shapes::zero<Real>(); // of the liquid relative to the soil
+        if (nodalAverage) {
+            for (int l = 0; l < count; ++l) {
+                const int c = femCells_[f + l].cell;
+                shapes::setLane(flow, l, cellLiquidRate_[c] - cellRate_[c]);
+            }
+        } else {
+            flow = Shape::divergence(cell, relativeR, relativeZ);
+        }
+        const Real n = shapes::lanesOf<Real>(fem_.porosity, f, count);
+        Real pressure = shapes::lanesOf<Real>(fem_.pressure, f, count);
+        if (projects()) {
+            for (int l = 0; l < count; ++l) {
+                shapes::setLane(pressure, l,
+                                shapes::lane(pressure, l) + pressureStep_[femCells_[f + l].cell]);
+            }
+        } else {
+            pressure -= dt * liquid_[material].bulkModulus / n * (trace + n * flow);
+        }
+        shapes::setLanes(fem_.pressure, f, count, pressure);
     }
 }
 
+/// Strains and stresses of the cells at rest, from the velocities of their nodes.
 template <class Shape, int phases>
-void ExplicitStep<Shape, phases>::updateFemStress()
+void ExplicitStep<Shape, phases>::updateFemCells(State& state, double dt)
 {
-    if (femCells_.empty()) {
-        return;
+    for (std::size_t j = femSteps_ == 0 ? 0 : innerNodes_; j < femNodes_.size(); ++j) {
+        const Node& node = nodes_[femNodes_[j].node];
+        if constexpr (twoPhase) {
+            const LiquidNode& liquid = liquidNodes_[femNodes_[j].node];
+            femMotion_[j] = {node.vr, node.vz, liquid.relativeVr, liquid.relativeVz};
+        } else {
+            femMotion_[j] = {node.vr, node.vz};
+        }
     }
-    ++femSteps_;
     threads_.run([&](int part) {
         std::vector<double*>& pointers = statePointers_[part];
         for (const PointCells::Run& run : femRuns_) {
             inBlocks(run.begin, run.end, part, [&](int begin, int end) {
+                for (int f = begin; f < end; f += Shape::lanes) {
+                    strainFemCells(state, dt, f, std::min(Shape::lanes, end - f));
+                }
                 StressBatch batch;
                 batch.size = end - begin;
                 for (int j = 0; j < 4; ++j) {
-                    batch.strain[j] = femStrain_[j].data() + begin;
-                    batch.stress[j] = femStress_[j].data() + begin;
+                    batch.strain[j] = fem_.strain[j].data() + begin;
+                    batch.stress[j] = fem_.stress[j].data() + begin;
                 }
-                batch.spin = femSpin_.data() + begin;
-                for (std::size_t k = 0; k < femState_.size(); ++k) {
-                    pointers[k] = femState_[k].data() + begin;
+                batch.spin = fem_.spin.data() + begin;
+                for (std::size_t k = 0; k < fem_.state.size(); ++k) {
+                    pointers[k] = fem_.state[k].data() + begin;
                 }
                 batch.state = &pointers;
                 scene_.materials[run.material].law->update(batch);
             });
         }
     });
+    ++femSteps_;
 }
 
 /// The points that rest catch up with their cells, which are cells of points again.
@@ -361,6 +701,31 @@ void ExplicitStep<Shape, phases>::wakeFemCells(State& state)
     if (femCells_.empty()) {
         return;
     }
+    if (femSteps_ > 1) {
+        returnInnerMotion();
+        const double step = femTime_ / static_cast<double>(femSteps_);
+        for (int j = 0; j < innerNodes_; ++j) { // what the others have summed
+            FemNode& fem = femNodes_[j];
+            const FemMotion& start = femStart_[j];
+            const FemMotion& motion = femMotion_[j];
+            fem.dvr = motion[0] - start[0];
+            fem.dvz = motion[1] - start[1];
+            fem.placeR = femHistory_[j].strainR - 0.5 * step * fem.dvr;
+            fem.placeZ = femHistory_[j].strainZ - 0.5 * step * fem.dvz;
+            if constexpr (twoPhase) {
+                fem.relativeR = motion[2] - femHistory_[j].keep * start[2];
+                fem.relativeZ = motion[3] - femHistory_[j].keep * start[3];
+                double volume = 0, pressureVolume = 0;
+                for (int n = femCorners_.start[j]; n < femCorners_.start[j + 1]; ++n) {
+                    const int f = femCorners_.item[n] / corners;
+                    const double ofCorner = femLiquidCells_[f].volume[femCorners_.item[n] % corners];
+                    volume += ofCorner;
+                    pressureVolume += fem_.pressure[f] * ofCorner;
+                }
+                liquidNodes_[fem.node].pressure = pressureVolume / volume;
+            }
+        }
+    }
     forCells([&](int c) {
         if (resting(c)) {
             wakeFemCell(state, c);
@@ -369,7 +734,10 @@ void ExplicitStep<Shape, phases>::wakeFemCells(State& state)
     updateStress(state, true);
     std::ranges::fill(femOf_, -1);
     femCells_.clear();
+    std::ranges::fill(innerNode_, 0);
+    findOuterNodes();
     femSteps_ = 0;
+    femTime_ = 0;
     femFlip_ = 1;
 }
 
@@ -377,8 +745,16 @@ template <class Shape, int phases>
 void ExplicitStep<Shape, phases>::wakeFemCell(State& state, int c)
 {
     MaterialPoints& points = state.points;
-    const FemCell& fem = femCells_[femOf_[c]];
+    const int f = femOf_[c];
+    const double dilatation = fem_.dilatation[f];
     const typename Shape::Cell& cell = cells_[c];
+    double strainR[corners], strainZ[corners];
+    for (int k = 0; k < corners; ++k) {
+        strainR[k] = femHistory_[fem_.node[f][k]].strainR;
+        strainZ[k] = femHistory_[fem_.node[f][k]].strainZ;
+    }
+    shapes::VelocityGradient<corners> strain;
+    Shape::velocityGradient(cell, strainR, strainZ, strain);
     const int* const first = pointCells_.begin(c);
     const int* const last = pointCells_.end(c);
     // As in the sampling, mean strains are those about the points' centre.
@@ -400,14 +776,14 @@ void ExplicitStep<Shape, phases>::wakeFemCell(State& state, int c)
         const int p = *i;
         const auto [xi, eta] = Shape::evaluate(cell, points.r[p], points.z[p], values);
         const auto at = [&](int j) {
-            double value = fem.strain[0][j];
+            double value = strain[0][j];
             if constexpr (corners == 4) {
-                value += (xi - centreXi) * fem.strain[1][j] + (eta - centreEta) * fem.strain[2][j];
+                value += (xi - centreXi) * strain[1][j] + (eta - centreEta) * strain[2][j];
             }
             return value;
         };
         const double rr = at(0), zz = at(1), hoop = at(2), rz = at(3), zr = at(4);
-        const double shift = (fem.dilatation - rr - zz - hoop) / 3;
+        const double shift = (dilatation - rr - zz - hoop) / 3;
         strain_[0][p] = rr + shift;
         strain_[1][p] = zz + shift;
         strain_[2][p] = hoop + shift;
@@ -417,7 +793,7 @@ void ExplicitStep<Shape, phases>::wakeFemCell(State& state, int c)
         double relativeR = 0, relativeZ = 0, kept = 0, nodalPressure = 0;
         for (int k = 0; k < corners; ++k) {
             const int node = cellNodes_[c * corners + k];
-            const FemNode& since = femNodes_[node];
+            const FemNode& since = femNodes_[fem_.node[f][k]];
             const double N = values.N[k];
             dvr += N * since.dvr;
             dvz += N * since.dvz;
@@ -428,7 +804,7 @@ void ExplicitStep<Shape, phases>::wakeFemCell(State& state, int c)
             if constexpr (twoPhase) {
                 relativeR += N * since.relativeR;
                 relativeZ += N * since.relativeZ;
-                kept += N * since.keep;
+                kept += N * femHistory_[fem_.node[f][k]].keep;
                 nodalPressure += N * liquidNodes_[node].pressure;
             }
         }
@@ -447,11 +823,11 @@ void ExplicitStep<Shape, phases>::wakeFemCell(State& state, int c)
         }
         points.r[p] += placeR;
         points.z[p] += placeZ;
-        points.volume[p] = std::min(points.volume[p] * std::exp(fem.dilatation),
+        points.volume[p] = std::min(points.volume[p] * std::exp(dilatation),
                                     points.mass[p] * largestVolume_[points.material[p]]);
     }
     if constexpr (twoPhase) { // the mean of the cell, with the differences that the nodes show
-        const double shift = femLiquidCells_[femOf_[c]].pressure - shapeSum / volumeSum;
+        const double shift = fem_.pressure[f] - shapeSum / volumeSum;
         for (const int* i = first; i != last; ++i) {
             points.porePressure[*i] =
                 std::max(pressureShape_[*i] + shift, liquid_[points.material[*i]].leastPressure);

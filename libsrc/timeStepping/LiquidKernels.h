@@ -193,8 +193,8 @@ void ExplicitStep<Shape, phases>::mapLiquidToNodes(const State& state, int c)
             poreVolume += sum[k].poreVolume;
             wholeVolume += sum[k].volume;
         }
-        fem.pressure = mean;
-        fem.porosity = poreVolume / wholeVolume;
+        fem_.pressure[femOf_[c]] = mean;
+        fem_.porosity[femOf_[c]] = poreVolume / wholeVolume;
     }
 }
 
@@ -255,7 +255,7 @@ void ExplicitStep<Shape, phases>::pump(State& state, double dt)
 }
 
 template <class Shape, int phases>
-void ExplicitStep<Shape, phases>::solveTwoPhaseNode(int i, const Corner& solid, double dt)
+typename ExplicitStep<Shape, phases>::LiquidCorner ExplicitStep<Shape, phases>::gatherLiquid(int i) const
 {
     LiquidCorner sum{};
     for (int k = nodeCorners_.start[i]; k < nodeCorners_.start[i + 1]; ++k) {
@@ -270,6 +270,13 @@ void ExplicitStep<Shape, phases>::solveTwoPhaseNode(int i, const Corner& solid, 
         sum.poreVolume += corner.poreVolume;
         sum.pressureVolume += corner.pressureVolume;
     }
+    return sum;
+}
+
+template <class Shape, int phases>
+void ExplicitStep<Shape, phases>::solveTwoPhaseNode(int i, const Corner& solid, const LiquidCorner& sum,
+                                                    double dt)
+{
     Node& node = nodes_[i];
     LiquidNode& liquid = liquidNodes_[i];
     const double n = sum.poreVolume / sum.volume;
@@ -480,7 +487,7 @@ void ExplicitStep<Shape, phases>::meanPressures(const State& state, std::vector<
     cellPressure.resize(cells_.size());
     forCells([&](int c) {
         if (resting(c) && femSteps_ > 0) {
-            cellPressure[c] = femLiquidCells_[femOf_[c]].pressure;
+            cellPressure[c] = fem_.pressure[femOf_[c]];
             return;
         }
         double volume = 0;
@@ -515,7 +522,7 @@ void ExplicitStep<Shape, phases>::filterPressures(State& state)
         }
         const double change = share * cellPressure_[c];
         if (resting(c)) {
-            femLiquidCells_[femOf_[c]].pressure -= change;
+            fem_.pressure[femOf_[c]] -= change;
             return;
         }
         for (const int* i = pointCells_.begin(c); i != pointCells_.end(c); ++i) {

@@ -142,7 +142,7 @@ void ExplicitStep<Shape, phases>::updateDilatationRows(const State& state, doubl
         const auto bulkModulus = [&](int p) { return liquid_[state.points.material[p]].bulkModulus; };
         if (resting(c) && femSteps_ > 0) { // of one material
             volume = 1;
-            stored = femLiquidCells_[femOf_[c]].porosity / bulkModulus(*pointCells_.begin(c));
+            stored = fem_.porosity[femOf_[c]] / bulkModulus(*pointCells_.begin(c));
         } else {
             for (const int* p = pointCells_.begin(c); p != pointCells_.end(c); ++p) {
                 volume += state.points.volume[*p];
