@@ -55,7 +55,8 @@ constexpr Keyword keywords[] = {
     {"energyGate", "-", "0.05", "(0, inf)",
      "share of the work done that the scaled kinetic energy may have (else a warning)"},
     {"monitorInterval", "s", "0.005", "[0, inf)", "least time between two records in postProcessing"},
-    {"sortInterval", "integer", "50", "[1, 100000]", "steps between two sorts of the points in memory"},
+    {"sortInterval", "integer", "50", "[1, 100000]",
+     "steps between two sorts of the points in memory, at most: FEM cells may need them sooner"},
     {"threads", "integer", "0", "[0, 64]",
      "threads; 0 takes the processors, one for every 5,000 points at most. Results do not depend on it"},
 };

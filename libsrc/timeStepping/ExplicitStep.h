@@ -261,7 +261,8 @@ private:
     template <class Work>
     void inBlocks(int first, int last, int part, const Work& work) const;
     [[nodiscard]] bool resting(int c) const { return !femOf_.empty() && femOf_[c] >= 0; }
-    [[nodiscard]] bool mayRest(const State& state, int c, double interval) const;
+    [[nodiscard]] double mayRest(const State& state, int c, double step) const;
+    [[nodiscard]] int chooseRest(const MaterialPoints& points, const std::vector<double>& mayRest) const;
     void chooseFemCells(const State& state);
     void numberFemNodes();
     void sumInnerNodes();
@@ -330,6 +331,7 @@ private:
     std::vector<int> activeCells_, activeNodes_;
     std::vector<unsigned char> activeNode_;
     bool occupancyChanged_ = true;
+    int stepsToSort_ = 0; ///< never where it is not positive
 
     std::vector<Corner> cornerSums_;
     std::vector<Node> nodes_;

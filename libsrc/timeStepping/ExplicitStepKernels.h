@@ -258,6 +258,7 @@ void ExplicitStep<Shape, phases>::rebuild(State& state)
 template <class Shape, int phases>
 void ExplicitStep<Shape, phases>::sortPoints(State& state)
 {
+    stepsToSort_ = scene_.controls.sortInterval;
     chooseFemCells(state);
     pointCells_.sort(state.points, state.mesh.cells(), rests_);
     divideCells();
@@ -594,9 +595,8 @@ void ExplicitStep<Shape, phases>::advance(State& state, double dt)
     if (!femCells_.empty()) {
         updateFemCells(state, dt);
     }
-    const int sortInterval = scene_.controls.sortInterval;
-    const bool sorts = (sortInterval > 0 && (state.step + 1) % sortInterval == 0) ||
-                       std::ranges::any_of(restless_, [](unsigned char is) { return is != 0; });
+    const bool sorts =
+        --stepsToSort_ == 0 || std::ranges::any_of(restless_, [](unsigned char is) { return is != 0; });
     if (sorts) {
         pressureSolver_.forget(); // its matrix grows old
         wakeFemCells(state);

@@ -15,9 +15,10 @@
 // where the soil is elastic the points end where they would have ended.
 namespace caisson {
 
-/// Whether points of one material, without loads, move and strain little in an interval [s].
+/// Steps for which the points of a cell may rest: of one material, without loads, and as long as they move
+/// and strain little. 0 where they may not.
 template <class Shape, int phases>
-bool ExplicitStep<Shape, phases>::mayRest(const State& state, int c, double interval) const
+double ExplicitStep<Shape, phases>::mayRest(const State& state, int c, double step) const
 {
     const MaterialPoints& points = state.points;
     const int* const first = pointCells_.begin(c);
@@ -32,7 +33,7 @@ bool ExplicitStep<Shape, phases>::mayRest(const State& state, int c, double inte
     for (const int* i = first; i != last; ++i) {
         const int p = *i;
         if (points.material[p] != points.material[*first] || (points.loaded() && points.load[p] >= 0)) {
-            return false;
+            return 0;
         }
         lowR = std::min(lowR, points.vr[p]);
         highR = std::max(highR, points.vr[p]);
@@ -42,8 +43,34 @@ bool ExplicitStep<Shape, phases>::mayRest(const State& state, int c, double inte
     const double speed = std::max({-lowR, highR, meshVz - lowZ, highZ - meshVz});
     const double difference = std::max(highR - lowR, highZ - lowZ);
     const double size = Shape::size(cells_[c]);
-    return interval * speed <= scene_.controls.femMotion * size &&
-           interval * difference <= scene_.controls.femStrain * size;
+    const SolutionControls& controls = scene_.controls;
+    constexpr double least = std::numeric_limits<double>::min(); // of the divisor
+    return std::min(controls.femMotion / std::max(step * speed / size, least),
+                    controls.femStrain / std::max(step * difference / size, least));
+}
+
+/// Steps to the next sort. Longer rests save sorts, and cost the cells that cannot rest as long.
+template <class Shape, int phases>
+int ExplicitStep<Shape, phases>::chooseRest(const MaterialPoints& points,
+                                            const std::vector<double>& mayRest) const
+{
+    constexpr double costOfSort = 2.5; // over that of a step, per point
+    const int longest = scene_.controls.sortInterval;
+    int best = longest;
+    double least = std::numeric_limits<double>::max();
+    for (int steps = longest; steps > 0 && steps >= longest / 8; steps /= 2) {
+        double cost = costOfSort * static_cast<double>(points.size()) / steps;
+        for (const int c : activeCells_) {
+            if (rests_[c] && mayRest[c] < steps) {
+                cost += pointCells_.count(c);
+            }
+        }
+        if (cost < least) {
+            least = cost;
+            best = steps;
+        }
+    }
+    return best;
 }
 
 template <class Shape, int phases>
@@ -79,9 +106,11 @@ void ExplicitStep<Shape, phases>::chooseFemCells(const State& state)
     for (std::size_t i = 0; i < nodes_.size(); ++i) {
         near[i] = contactNode_[i] != 0 || surfaceNode_[i] != 0;
     }
-    const double interval = controls.sortInterval * stableStep(state).step;
+    const double step = stableStep(state).step;
+    std::vector<double> steps(cells_.size());
     for (const int c : activeCells_) {
-        rests_[c] = state.filled[c] != 0 && mayRest(state, c, interval);
+        steps[c] = state.filled[c] != 0 ? mayRest(state, c, step) : 0;
+        rests_[c] = steps[c] > 0;
     }
     for (int ring = 0; ring < std::max(1, controls.femDistance); ++ring) {
         const std::vector<unsigned char> before = near;
@@ -114,6 +143,10 @@ void ExplicitStep<Shape, phases>::chooseFemCells(const State& state)
             ofZone[c] = rests_[c];
         }
         rests_ = ofZone;
+    }
+    stepsToSort_ = chooseRest(points, steps);
+    for (const int c : activeCells_) {
+        rests_[c] = rests_[c] != 0 && steps[c] >= stepsToSort_;
     }
 
     std::vector<int> chosen;
