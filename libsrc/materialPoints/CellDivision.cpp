@@ -156,6 +156,16 @@ bool divideTriangle(int points, CellDivision& division)
     return false;
 }
 
+CellDivision finer(const CellDivision& one, const CellDivision& other)
+{
+    const auto points = [](const CellDivision& division) {
+        return division.pattern * division.split * division.split;
+    };
+    CellDivision result = points(one) >= points(other) ? one : other;
+    result.along = {std::max(one.along[0], other.along[0]), std::max(one.along[1], other.along[1])};
+    return result;
+}
+
 CellDivision refined(const BackgroundMesh& mesh, int cell, CellDivision division,
                      const std::array<double, 2>& maxSpacing)
 {

@@ -30,6 +30,9 @@ struct SubCell
 /// Triangles: the division into `points`, or nothing where that number is not 1, 3 or 6 times a square.
 bool divideTriangle(int points, CellDivision& division);
 
+/// The finer of two divisions: quadrilaterals in each direction, triangles in the number of points.
+CellDivision finer(const CellDivision& one, const CellDivision& other);
+
 /// `division` with as many more sub-cells as keep the points' spacing in the directions of r and z within
 /// `maxSpacing` [m].
 CellDivision refined(const BackgroundMesh& mesh, int cell, CellDivision division,

@@ -67,8 +67,10 @@ constexpr std::string_view typeWords = "all cellZone box polygon circle";
 constexpr Keyword refinementKeywords[] = {
     {"box", "list", "", "",
      "corners ((r z) (r z)) of the box in which cells are refined, by their centres [m]"},
-    {"maxSpacing", "list", "", "",
+    {"maxSpacing", "list", "-", "",
      "largest spacing of points: of both directions, or (along r, along z) [m]"},
+    {"pointsPerCell", "list", "-", "",
+     "points of a cell, at least: as in the region. This, maxSpacing or both"},
 };
 
 constexpr Keyword velocityKeywords[] = {
@@ -100,40 +102,44 @@ public:
         }
     }
 
-    void readDivision(int corners)
+    void readDivision(int corners) { readDivision(reader_, corners, region_.division); }
+
+    static void readDivision(const KeywordReader& reader, int corners, CellDivision& division)
     {
-        if (!reader_.has("pointsPerCell")) {
+        if (!reader.has("pointsPerCell")) {
             return;
         }
-        const std::vector<double> values = numbers("pointsPerCell");
+        const std::vector<double> values = numbers(reader, "pointsPerCell");
         const bool whole =
             std::ranges::all_of(values, [](double x) { return x >= 1 && x <= 1000 && x == std::floor(x); });
         if (corners == 4 && whole && values.size() == 2) {
-            region_.division.along = {static_cast<int>(values[0]), static_cast<int>(values[1])};
+            division.along = {static_cast<int>(values[0]), static_cast<int>(values[1])};
         } else if (corners == 4) {
-            reader_.problem("pointsPerCell", "quadrilaterals need two whole numbers from 1 to 1000",
-                            "pointsPerCell (2 2);  along r and along z");
-        } else if (!(whole && values.size() == 1 &&
-                     divideTriangle(static_cast<int>(values[0]), region_.division))) {
-            reader_.problem("pointsPerCell", "triangles need 1, 3 or 6 times a square number",
-                            "pointsPerCell 3;  valid: 1 3 4 6 9 12 16 24 25 27 ...");
+            reader.problem("pointsPerCell", "quadrilaterals need two whole numbers from 1 to 1000",
+                           "pointsPerCell (2 2);  along r and along z");
+        } else if (!(whole && values.size() == 1 && divideTriangle(static_cast<int>(values[0]), division))) {
+            reader.problem("pointsPerCell", "triangles need 1, 3 or 6 times a square number",
+                           "pointsPerCell 3;  valid: 1 3 4 6 9 12 16 24 25 27 ...");
         }
     }
 
-    void readRefinements()
+    void readRefinements(int corners)
     {
         for (const Dictionary& dictionary : reader_.dictionaries("refinements")) {
             const KeywordReader own(dictionary, refinementKeywords, "a refinement", reader_.problems());
             const std::vector<std::vector<double>> box = own.rows("box");
-            std::vector<double> spacing;
-            const Entry* entry = own.entry("maxSpacing");
-            if (entry != nullptr && entry->tokens.size() == 1) {
-                spacing.assign(2, own.number("maxSpacing"));
-            } else if (entry != nullptr) {
-                spacing = own.numbers("maxSpacing");
+            std::vector<double> spacing(2, std::numeric_limits<double>::infinity());
+            if (own.has("maxSpacing")) {
+                spacing = numbers(own, "maxSpacing");
+                spacing.resize(spacing.size() == 1 ? 2 : spacing.size(), spacing.empty() ? 0 : spacing[0]);
             }
+            CellDivision division{{1, 1}, 1, 1};
+            readDivision(own, corners, division);
             if (box.size() != 2 || box[0].size() != 2 || box[1].size() != 2) {
                 own.problem("box", "the box of a refinement needs two corners", "box ((0 -5) (3 0));");
+            } else if (!own.has("maxSpacing") && !own.has("pointsPerCell")) {
+                own.problem("box", "a refinement needs maxSpacing, pointsPerCell or both",
+                            "{ box ((0 -5) (3 0)); maxSpacing (1 0.02); }");
             } else if (spacing.size() != 2 || !(spacing[0] > 0) || !(spacing[1] > 0)) {
                 own.problem("maxSpacing", "maxSpacing needs one or two positive numbers",
                             "maxSpacing 0.02;  or along r and along z: maxSpacing (1 0.02);");
@@ -141,7 +147,8 @@ public:
                 region_.refinements.push_back(
                     {{std::min(box[0][0], box[1][0]), std::min(box[0][1], box[1][1])},
                      {std::max(box[0][0], box[1][0]), std::max(box[0][1], box[1][1])},
-                     {spacing[0], spacing[1]}});
+                     {spacing[0], spacing[1]},
+                     division});
             }
         }
     }
@@ -172,13 +179,13 @@ public:
 
 private:
     /// A list of numbers, or a number alone.
-    [[nodiscard]] std::vector<double> numbers(const char* key) const
+    [[nodiscard]] static std::vector<double> numbers(const KeywordReader& reader, const char* key)
     {
-        const Entry* entry = reader_.entry(key);
+        const Entry* entry = reader.entry(key);
         if (entry != nullptr && entry->tokens.size() == 1 && entry->tokens[0].kind == Token::Kind::number) {
             return {entry->tokens[0].number};
         }
-        return reader_.numbers(key);
+        return reader.numbers(key);
     }
 
     [[nodiscard]] Place place(const char* key) const
@@ -321,7 +328,7 @@ std::vector<Keyword> seedRegionKeywords(const std::string& type)
          "a "
          "square"},
         {"refinements", "list", "-", "",
-         "boxes with finer points: ( { box ((r z) (r z)); maxSpacing d; } ... )"},
+         "boxes with finer points: ( { box ((r z) (r z)); maxSpacing d; pointsPerCell (n m); } ... )"},
         {"meshDisplacement", "m", "-", "",
          "how far the mesh will move, down negative: points as fine as the cells that come by on the way"},
         {"velocity", "dictionary", "-", "", "initial velocity: { r <Function1 of r>; z <Function1 of z>; }"},
@@ -375,7 +382,7 @@ std::vector<SeedRegion> readSeedRegions(const std::vector<Dictionary>& regions, 
         RegionReader parts(reader, region);
         parts.readShape(mesh);
         parts.readDivision(mesh.corners);
-        parts.readRefinements();
+        parts.readRefinements(mesh.corners);
         parts.readDisplacement(mesh, motion);
         parts.readVelocity();
         const std::string material = reader.word("material");

@@ -11,11 +11,13 @@
 
 namespace caisson {
 
-/// A box within which points are no farther apart than maxSpacing, in the directions of r and z [m].
+/// A box within which points are no farther apart than maxSpacing, in the directions of r and z [m], and
+/// cells divided at least as often as in `division`.
 struct SeedRefinement
 {
     std::array<double, 2> low, high;
     std::array<double, 2> maxSpacing;
+    CellDivision division;
 };
 
 /// A part of the mesh that is filled with one material.

@@ -67,19 +67,23 @@ private:
         }
         result_.regions[i].exactVolume += within;
         CellDivision division = region.division;
-        if (!region.passingHeight.empty()) {
-            constexpr double rounding = 1 + 1e-6;
-            const int rows = mesh_.corners == 4 ? division.along[1] : 1;
-            division = refined(
-                mesh_, cell, division,
-                {std::numeric_limits<double>::infinity(), rounding * region.passingHeight[cell] / rows});
-        }
+        std::array<double, 2> maxSpacing;
+        maxSpacing.fill(std::numeric_limits<double>::infinity());
         for (const SeedRefinement& refinement : region.refinements) {
             if (centreR >= refinement.low[0] && centreR <= refinement.high[0] &&
                 centreZ >= refinement.low[1] && centreZ <= refinement.high[1]) {
-                division = refined(mesh_, cell, division, refinement.maxSpacing);
+                division = finer(division, refinement.division);
+                for (const int direction : {0, 1}) {
+                    maxSpacing[direction] = std::min(maxSpacing[direction], refinement.maxSpacing[direction]);
+                }
             }
         }
+        if (!region.passingHeight.empty()) {
+            constexpr double rounding = 1 + 1e-6;
+            const int rows = mesh_.corners == 4 ? division.along[1] : 1;
+            maxSpacing[1] = std::min(maxSpacing[1], rounding * region.passingHeight[cell] / rows);
+        }
+        division = refined(mesh_, cell, division, maxSpacing);
         for (const SubCell& subCell : subdivide(mesh_, cell, division)) {
             if (!region.contains(subCell.r, subCell.z) || insideBody(subCell.r, subCell.z)) {
                 continue;

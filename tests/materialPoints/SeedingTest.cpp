@@ -185,6 +185,29 @@ TEST(Seeding, refinementsRaiseThePointsOfTheCellsInTheirBox)
     EXPECT_NEAR(total(filled.seeded.points.volume), 48, 1e-12);
 }
 
+TEST(Seeding, refinementsMaySayHowManyPointsACellHasAtLeast)
+{
+    const auto points = [](const std::string& region, bool triangles) {
+        const Filled filled = fill(domain(triangles), region);
+        EXPECT_TRUE(filled.problems.empty()) << filled.problems[0];
+        std::map<int, int> ofCell;
+        for (const int cell : filled.seeded.points.cell) {
+            ++ofCell[cell];
+        }
+        return ofCell;
+    };
+    const auto quadrilaterals =
+        points("{ type box; min (0 -6); max (4 0); material sand; pointsPerCell (2 3);"
+               "  refinements ( { box ((0.4 -6) (1 -4.5)); pointsPerCell (4 2); } ); }",
+               false);
+    EXPECT_EQ(quadrilaterals.at(0), 2 * 3);
+    EXPECT_EQ(quadrilaterals.at(1), 4 * 3) << "no fewer than elsewhere in either direction";
+    const auto triangles = points(
+        "{ type all; material sand; refinements ( { box ((0 -6) (1 -4.5)); pointsPerCell 12; } ); }", true);
+    EXPECT_EQ(triangles.at(0), 12);
+    EXPECT_EQ(triangles.rbegin()->second, 3);
+}
+
 TEST(Seeding, initialVelocitiesAreFunctionsOfRAndZ)
 {
     const Filled filled =
@@ -222,6 +245,10 @@ TEST(Seeding, everyMistakeIsAProblemWithItsLine)
     expect("{ type all; material sand;\n pointsPerCell 5; }", "triangles need 1, 3 or 6", 4, true);
     expect("{ type all; material sand; refinements ( { box ((0 0) (1 1));\n maxSpacing 0; } ); }",
            "positive numbers", 4);
+    expect("{ type all; material sand; refinements (\n { box ((0 0) (1 1)); } ); }",
+           "maxSpacing, pointsPerCell", 4);
+    expect("{ type all; material sand; refinements ( { box ((0 0) (1 1));\n pointsPerCell 3; } ); }",
+           "quadrilaterals need two", 4);
     expect("{ type box; material sand; min (5 -1); max (6 0); }", "meets no cell", 3);
     expect("{ type box; material sand; min (0 -1); max (0.001 -0.999); }", "smaller than the sub-cells", 3);
     expect("{ type box; material sand; min (1 -3); max (2 -1); }\n{ type all; material clay; }",
