@@ -303,13 +303,16 @@ CaseScene readCaseScene(const std::filesystem::path& caseDirectory, const std::f
     if (const auto dictionary = readCaseDictionary(caseDirectory, "system/mpmSolution",
                                                    "the scheme and its switches", problems)) {
         scene.controls = readSolutionControls(*dictionary, state.mesh.corners == 3, problems);
-        const std::string& zone = scene.controls.femZone;
-        if (!zone.empty() && !state.mesh.cellZones.contains(zone)) {
+        for (const auto& [key, zone] :
+             {std::pair{"femZone", scene.controls.femZone}, std::pair{"boxZone", scene.controls.boxZone}}) {
+            if (zone.empty() || state.mesh.cellZones.contains(zone)) {
+                continue;
+            }
             std::vector<std::string> names;
             for (const auto& [name, cells] : state.mesh.cellZones) {
                 names.push_back(name);
             }
-            problems.add(dictionary->find("femZone")->where, "the mesh has no cellZone '" + zone + "'",
+            problems.add(dictionary->find(key)->where, "the mesh has no cellZone '" + zone + "'",
                          names.empty() ? "it has none at all: name blocks in blockMeshDict, or use topoSet"
                                        : suggestion(zone, names, "cellZones"));
         }

@@ -15,6 +15,13 @@ constexpr Keyword keywords[] = {
      "mixed: cells filled with soil with their own volume, others at their points; points: all at points"},
     {"volumetricLocking", "word", "automatic", "automatic none meanDilatation nodalAverage",
      "treatment of locking; automatic: meanDilatation on quadrilaterals, nodalAverage on triangles"},
+    {"shapeFunctions", "word", "linear", "linear GIMP BSpline",
+     "linear: those of the mesh at the point; GIMP: averaged over the point's box; BSpline: over a box as "
+     "wide "
+     "as a cell. One phase, rectangles"},
+    {"boxWidth", "-", "0.5", "(0, 1]",
+     "GIMP: width of the boxes over that of their cells: 1 over the points per cell and direction"},
+    {"boxZone", "word", "-", "", "cellZone whose points have boxes; everywhere without it"},
     {"femCells", "word", "none", "none automatic",
      "automatic: cells well inside the soil are finite elements, whose points rest from sort to sort"},
     {"femDistance", "integer", "6", "[1, 1000]", "cells between an FEM cell and a body or a free surface"},
@@ -121,6 +128,21 @@ SolutionControls readSolutionControls(const Dictionary& mpmSolution, bool triang
                        "quasiSteady goes with phases 1: the soil is drained, and loaded by seepage",
                        "phases 1; or pressureCoupling explicit");
     }
+    const std::string functions = reader.word("shapeFunctions");
+    controls.boxWidth = functions == "GIMP" ? reader.number("boxWidth") : functions == "BSpline" ? 1.0 : 0.0;
+    controls.boxZone = reader.has("boxZone") ? reader.word("boxZone") : std::string();
+    if (functions != "GIMP" && reader.has("boxWidth")) {
+        reader.problem("boxWidth", "boxWidth is of shapeFunctions GIMP", "shapeFunctions GIMP;");
+    }
+    if (functions == "linear" && !controls.boxZone.empty()) {
+        reader.problem("boxZone", "linear shape functions have no boxes", "shapeFunctions GIMP;  or BSpline");
+    }
+    if (functions != "linear" && controls.phases == 2) {
+        reader.problem("shapeFunctions", functions + " is of soil of one phase", "shapeFunctions linear;");
+    } else if (functions != "linear" && triangles) {
+        reader.problem("shapeFunctions", functions + " needs rectangles, the mesh has triangles",
+                       "shapeFunctions linear;");
+    }
     controls.femCells = reader.word("femCells") == "automatic" ? SolutionControls::FemCells::automatic
                                                                : SolutionControls::FemCells::none;
     controls.femDistance = static_cast<int>(reader.integer("femDistance"));
@@ -135,6 +157,9 @@ SolutionControls readSolutionControls(const Dictionary& mpmSolution, bool triang
     controls.affine = reader.flag("affine");
     if (controls.affine && controls.flipShare != 0) {
         reader.problem("affine", "affine (APIC) takes the place of FLIP", "flipShare 0;");
+    }
+    if (controls.affine && controls.boxWidth > 0) {
+        reader.problem("affine", "affine (APIC) is of linear shape functions", "shapeFunctions linear;");
     }
     if (controls.affine && controls.remap != SolutionControls::Remap::loose) {
         reader.problem("affine", "affine (APIC) is unstable without velocityRemap loose",

@@ -260,6 +260,10 @@ struct Rectangle
         return {r[0], z[0], dr, dz, 1 / dr, 1 / dz};
     }
 
+    /// The rectangle that the cell is.
+    static const Cell& sides(const Cell& cell) { return cell; }
+    static bool isStraight(const Cell&) { return true; }
+
     static bool contains(const Cell& cell, double r, double z)
     {
         return r >= cell.r0 && r <= cell.r0 + cell.dr && z >= cell.z0 && z <= cell.z0 + cell.dz;
@@ -528,6 +532,10 @@ struct Quadrilateral
     {
         return std::equal(r, r + 4, cell.r) && std::equal(z, z + 4, cell.z);
     }
+
+    /// The rectangle that the cell is where it is one.
+    static const typename Straight::Cell& sides(const Cell& cell) { return cell.straight; }
+    static bool isStraight(const Cell& cell) { return cell.isStraight; }
 
     static bool contains(const Cell& cell, double r, double z)
     {

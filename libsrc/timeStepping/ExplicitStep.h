@@ -2,6 +2,7 @@
 
 #include "mesh/CellLocator.h"
 #include "timeStepping/CellShapes.h"
+#include "timeStepping/PointBox.h"
 #include "timeStepping/PointCells.h"
 #include "timeStepping/PressureSolver.h"
 #include "timeStepping/Threads.h"
@@ -39,6 +40,7 @@ private:
     static constexpr int corners = Shape::corners;
     static constexpr bool axisymmetric = Shape::isAxisymmetric;
     static constexpr bool twoPhase = phases == 2;
+    static constexpr bool hasBoxes = Shape::corners == 4 && !twoPhase;
     static constexpr int filterInterval = 10; ///< steps between two uses of the checkerboard filter
     using Values = shapes::Values<corners>;
     using Dilatation = shapes::MeanDilatation<corners>;
@@ -159,6 +161,9 @@ private:
     /// Of a cell at rest on one of its corners: of its stress and, of two phases, of its excess pressure.
     using FemForce = std::array<double, twoPhase ? 4 : 2>;
 
+    /// Cells whose points have boxes (BoxKernels.h), and those that such boxes reach into.
+    enum class BoxCell : unsigned char { none, beside, smooth };
+
     /// What has happened at such a node in all steps since the points rest.
     struct FemHistory
     {
@@ -213,7 +218,32 @@ private:
     void mapToNodes(State& state);
     void mapCellToNodes(State& state, int c);
     [[nodiscard]] double viscousStress(const State& state, int c, int material) const;
+    [[nodiscard]] std::array<double, 2> pointLoad(const MaterialPoints& points, int p) const;
     void addPointLoads(const State& state, int c);
+    void findBoxCells(const BackgroundMesh& mesh);
+    /// Whether cell c is one that boxes reach into.
+    [[nodiscard]] bool inBoxes(int c) const
+    {
+        return hasBoxes && !boxCell_.empty() && boxCell_[c] != BoxCell::none;
+    }
+    void makeBoxes(const State& state)
+        requires hasBoxes;
+    [[nodiscard]] BoxPart wholePoint(const State& state, int p, int c) const
+        requires hasBoxes;
+    template <class Work>
+    void forPartsIn(const State& state, int c, const Work& work) const
+        requires hasBoxes;
+    template <class Work>
+    void forPartsOf(const State& state, int p, int c, const Work& work) const
+        requires hasBoxes;
+    void mapBoxCellToNodes(const State& state, int c)
+        requires hasBoxes;
+    void addRemappedBoxMomentum(const State& state, int c)
+        requires hasBoxes;
+    void moveBoxVelocities(State& state, double dt, int c)
+        requires hasBoxes;
+    void strainBoxPoints(State& state, double dt, int c)
+        requires hasBoxes;
     void solveNodes(State& state, double dt);
     void findFreeSurfaces(const State& state);
     void updateWallAreas(const State& state);
@@ -256,6 +286,7 @@ private:
     template <bool velocities, bool strains>
     void mapCellToPoints(State& state, double dt, int c);
     void addRemappedMomentum(const State& state, int c);
+    void remapMomentum(const State& state, int c);
     [[nodiscard]] std::array<double, 2> affineVelocity(const State& state, int p, int corner) const;
     void updateStress(State& state, bool resting);
     template <class Work>
@@ -396,6 +427,11 @@ private:
     std::vector<double> shearModulus_; ///< per material [Pa]
     long femSteps_ = 0;                ///< steps that the points rest already
     double femFlip_ = 1;               ///< share of the FLIP velocity that these steps leave
+    // Boxes of points; empty where none has one.
+    std::vector<BoxCell> boxCell_; ///< per cell
+    std::vector<std::array<int, 9>>
+        around_;                  ///< per cell: itself and those around it, row by row from below, or -1
+    std::vector<PointBox> boxes_; ///< per point
     CellLocator locator_;
 };
 

@@ -233,6 +233,8 @@ ExplicitStep<Shape, phases>::ExplicitStep(const Scene& scene, State& state)
         pointers.resize(state.points.state.size());
     }
     updateCells(state);
+    findBoxCells(mesh);
+    boxes_.resize(boxCell_.empty() ? 0 : state.points.size());
     rebuild(state);
 }
 
@@ -386,7 +388,7 @@ void ExplicitStep<Shape, phases>::classifyCells(State& state)
         if (resting(c)) {
             return;
         }
-        bool filled = mixed && !bySurface_[c];
+        bool filled = mixed && !bySurface_[c] && !inBoxes(c);
         if (filled) {
             double volume = 0;
             for (const int* p = pointCells_.begin(c); p != pointCells_.end(c); ++p) {
@@ -538,6 +540,7 @@ std::string ExplicitStep<Shape, phases>::description() const
     words += controls.locking == SolutionControls::Locking::none             ? ""
              : controls.locking == SolutionControls::Locking::meanDilatation ? ", mean dilatation"
                                                                              : ", nodal dilatation";
+    words += boxCell_.empty() ? "" : ", boxes of " + text("%g", controls.boxWidth) + " cells";
     words += controls.mayHaveFemCells() ? ", FEM cells" : "";
     words += projects() ? ", projection" : "";
 #if defined(__AVX512F__)
@@ -758,7 +761,15 @@ void ExplicitStep<Shape, phases>::staggerStrain(State& state, double dt)
     if (scene_.controls.locking == SolutionControls::Locking::nodalAverage) {
         averageDilatationAtNodes();
     }
-    forCells([&](int c) { mapCellToPoints<false, true>(state, 0.5 * dt, c); });
+    forCells([&](int c) {
+        if constexpr (hasBoxes) {
+            if (inBoxes(c)) {
+                strainBoxPoints(state, 0.5 * dt, c);
+                return;
+            }
+        }
+        mapCellToPoints<false, true>(state, 0.5 * dt, c);
+    });
     updateStress(state, false);
     updateStress(state, true);
 }
@@ -982,6 +993,16 @@ void ExplicitStep<Shape, phases>::mapCellToNodes(State& state, int c)
     }
 }
 
+/// Force of the traction on a point now [N/rad or N/m].
+template <class Shape, int phases>
+std::array<double, 2> ExplicitStep<Shape, phases>::pointLoad(const MaterialPoints& points, int p) const
+{
+    const int load = points.load[p];
+    const double growth = scene_.pointLoads[load].areaFollows ? points.r[p] / points.initialR[p] : 1.0;
+    const double area = growth * points.loadArea[p];
+    return {area * pointTraction_[load][0], area * pointTraction_[load][1]};
+}
+
 template <class Shape, int phases>
 void ExplicitStep<Shape, phases>::addPointLoads(const State& state, int c)
 {
@@ -989,16 +1010,14 @@ void ExplicitStep<Shape, phases>::addPointLoads(const State& state, int c)
     Values values;
     for (const int* i = pointCells_.begin(c); i != pointCells_.end(c); ++i) {
         const int p = *i;
-        const int load = points.load[p];
-        if (load < 0) {
+        if (points.load[p] < 0) {
             continue;
         }
-        const double growth = scene_.pointLoads[load].areaFollows ? points.r[p] / points.initialR[p] : 1.0;
-        const double area = growth * points.loadArea[p];
+        const std::array<double, 2> force = pointLoad(points, p);
         Shape::evaluate(cells_[c], points.r[p], points.z[p], values);
         for (int k = 0; k < corners; ++k) {
-            cornerSums_[c * corners + k].forceR += values.N[k] * area * pointTraction_[load][0];
-            cornerSums_[c * corners + k].forceZ += values.N[k] * area * pointTraction_[load][1];
+            cornerSums_[c * corners + k].forceR += values.N[k] * force[0];
+            cornerSums_[c * corners + k].forceZ += values.N[k] * force[1];
         }
     }
 }
@@ -1017,6 +1036,11 @@ void ExplicitStep<Shape, phases>::mapToNodes(State& state)
     for (std::size_t l = 0; loaded && l < pointTraction_.size(); ++l) {
         pointTraction_[l] = scene_.pointLoads[l].traction(state.time, loadedArea_[l]);
     }
+    if constexpr (hasBoxes) {
+        if (!boxCell_.empty()) {
+            makeBoxes(state);
+        }
+    }
     const bool asElements = femSteps_ > 0;
     if (asElements) {
         mapFemCellsToNodes(state);
@@ -1024,6 +1048,12 @@ void ExplicitStep<Shape, phases>::mapToNodes(State& state)
     forCells([&](int c) {
         if (asElements && resting(c)) {
             return;
+        }
+        if constexpr (hasBoxes) {
+            if (inBoxes(c)) {
+                mapBoxCellToNodes(state, c);
+                return;
+            }
         }
         mapCellToNodes(state, c);
         if constexpr (twoPhase) {
@@ -1521,6 +1551,22 @@ void ExplicitStep<Shape, phases>::addRemappedMomentum(const State& state, int c)
 }
 
 template <class Shape, int phases>
+void ExplicitStep<Shape, phases>::remapMomentum(const State& state, int c)
+{
+    if constexpr (hasBoxes) {
+        if (inBoxes(c)) {
+            addRemappedBoxMomentum(state, c);
+            return;
+        }
+    }
+    if (resting(c)) {
+        keepFemMomentum(c);
+    } else {
+        addRemappedMomentum(state, c);
+    }
+}
+
+template <class Shape, int phases>
 void ExplicitStep<Shape, phases>::averageDilatationAtNodes()
 {
     averageAtNodes(cellRate_, [this](int i) { return std::array{nodes_[i].vr, nodes_[i].vz}; });
@@ -1596,17 +1642,24 @@ void ExplicitStep<Shape, phases>::mapToPoints(State& state, double dt)
                 byLoose_[c] |= looseNode_[cellNodes_[c * corners + k]];
             }
         }
-        if (later(c)) {
+        if (inBoxes(c)) {
+            if constexpr (hasBoxes) {
+                moveBoxVelocities(state, dt, c);
+            }
+        } else if (later(c)) {
             mapCellToPoints<true, false>(state, dt, c);
         }
-        if (remaps(c)) {
-            if (resting(c)) {
-                keepFemMomentum(c);
-            } else {
-                addRemappedMomentum(state, c);
-            }
+        if (remaps(c) && boxCell_.empty()) {
+            remapMomentum(state, c);
         }
     });
+    if (!boxCell_.empty()) { // of points in other cells as well
+        forCells([&](int c) {
+            if (remaps(c)) {
+                remapMomentum(state, c);
+            }
+        });
+    }
     if (remapAll || remapSome) {
         forNodes([&](int i) {
             if (!(remapAll || looseNode_[i]) || nodes_[i].mass <= 0) {
@@ -1648,6 +1701,12 @@ void ExplicitStep<Shape, phases>::mapToPoints(State& state, double dt)
     forCells([&](int c) {
         if (resting(c)) {
             return;
+        }
+        if constexpr (hasBoxes) {
+            if (inBoxes(c)) {
+                strainBoxPoints(state, dt, c);
+                return;
+            }
         }
         if (later(c)) {
             mapCellToPoints<false, true>(state, dt, c);

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "timeStepping/FemKernels.h"
+#include "timeStepping/BoxKernels.h"
 
 // Projection: the pore pressure at the end of the step, instead of that at its start, accelerates soil and
 // liquid [Chorin 1968; in increments: van Kan 1986; with finite stiffness of the liquid and drag: after

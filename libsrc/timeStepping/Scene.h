@@ -39,6 +39,8 @@ struct SolutionControls
     /// filled ones that are femDistance cells away from bodies and surfaces.
     enum class FemCells { none, automatic };
 
+    double boxWidth = 0; ///< of a point's box over that of its cell [-]; 0: shape functions at the point
+    std::string boxZone; ///< cellZone of such points; empty: all
     FemCells femCells = FemCells::none;
     int femDistance = 6;      ///< [cells]
     std::string femZone;      ///< cellZone that they are in; empty: anywhere
