@@ -617,6 +617,7 @@ void ExplicitStep<Shape, phases>::advance(State& state, double dt)
     } else if (scene_.controls.scaleSmallCells) {
         scaleInertia(state);
     }
+    threads_.lap(!sorts);
 }
 
 /// Velocities of the bodies: as prescribed, or by Newton's law with the reaction of the last step.

@@ -65,6 +65,37 @@ void Threads::finish()
     }
 }
 
+void Threads::lap(bool counts)
+{
+    if (workers_.empty()) {
+        return;
+    }
+    const auto now = std::chrono::steady_clock::now();
+    if (counts) {
+        window_ += std::chrono::duration<double>(now - lapped_).count();
+        ++laps_;
+    }
+    lapped_ = now;
+    if (laps_ < wanted_) {
+        return;
+    }
+    const double time = window_ / laps_;
+    window_ = 0;
+    laps_ = 0;
+    if (!probes_) { // look at the other way for a moment
+        kept_ = time;
+        alone_ = !alone_;
+        probes_ = true;
+        wanted_ = probedLaps;
+        return;
+    }
+    probes_ = false;
+    wanted_ = trustedLaps;
+    if (time > 0.9 * kept_) {
+        alone_ = !alone_;
+    }
+}
+
 void Threads::serve(int part)
 {
     for (int round = 0;; ++round) {
