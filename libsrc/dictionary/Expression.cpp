@@ -23,6 +23,8 @@ double neg(double x) { return x < 0 ? 1 : 0; }
 double neg0(double x) { return x <= 0 ? 1 : 0; }
 double sqr(double x) { return x * x; }
 double truth(double x) { return x != 0 ? 1 : 0; }
+double minus(double x) { return -x; }
+double isNot(double x) { return x == 0 ? 1 : 0; }
 double degToRad(double x) { return x * std::numbers::pi / 180; }
 double radToDeg(double x) { return x * 180 / std::numbers::pi; }
 
@@ -48,19 +50,31 @@ struct Binary
 };
 double smaller(double a, double b) { return a < b ? a : b; }
 double larger(double a, double b) { return a > b ? a : b; }
+double remainder(double a, double b) { return std::fmod(a, b); }
+double either(double a, double b) { return a != 0 || b != 0 ? 1 : 0; }
+double both(double a, double b) { return a != 0 && b != 0 ? 1 : 0; }
+double equal(double a, double b) { return a == b ? 1 : 0; }
+double different(double a, double b) { return a != b ? 1 : 0; }
+double atMost(double a, double b) { return a <= b ? 1 : 0; }
+double atLeast(double a, double b) { return a >= b ? 1 : 0; }
+double less(double a, double b) { return a < b ? 1 : 0; }
+double greater(double a, double b) { return a > b ? 1 : 0; }
 constexpr Binary binaryFunctions[] = {
     {"pow", std::pow}, {"atan2", std::atan2}, {"hypot", std::hypot}, {"min", smaller}, {"max", larger},
 };
 
-/// Recursive descent over the text.
-class Evaluator
+} // namespace
+
+/// Recursive descent over the text, which becomes operations on registers. What is known already becomes a
+/// number at once.
+class Expressions::Parser
 {
 public:
-    explicit Evaluator(std::string_view text) : text_(text) {}
+    Parser(Expressions& into, std::string_view text) : into_(into), text_(text) {}
 
-    double all()
+    Operand all()
     {
-        const double value = ternary();
+        const Operand value = ternary();
         skip();
         if (at_ < text_.size() && text_[at_] == ';') { // tolerated at the end
             ++at_;
@@ -70,7 +84,7 @@ public:
             fail("unexpected '" + std::string(1, text_[at_]) + "'" +
                  (text_[at_] == '^' ? " (powers are pow(a, b))" : ""));
         }
-        if (!std::isfinite(value)) {
+        if (value.reg < 0 && !std::isfinite(value.number)) {
             fail("the result is not finite");
         }
         return value;
@@ -103,92 +117,119 @@ private:
         }
         return false;
     }
-    double ternary()
+    Operand apply(double (*function)(double), Operand a)
+    {
+        if (a.reg < 0) {
+            return {-1, function(a.number)};
+        }
+        return into_.add({.code = Code::unary, .one = function, .a = a, .b = {}, .c = {}});
+    }
+    Operand apply(double (*function)(double, double), Operand a, Operand b)
+    {
+        if (a.reg < 0 && b.reg < 0) {
+            return {-1, function(a.number, b.number)};
+        }
+        return into_.add({.code = Code::binary, .two = function, .a = a, .b = b, .c = {}});
+    }
+    Operand apply(Code code, Operand a, Operand b)
+    {
+        if (a.reg < 0 && b.reg < 0) {
+            const double x = a.number;
+            const double y = b.number;
+            return {-1, code == Code::add        ? x + y
+                        : code == Code::subtract ? x - y
+                        : code == Code::multiply ? x * y
+                                                 : x / y};
+        }
+        return into_.add({.code = code, .a = a, .b = b, .c = {}});
+    }
+    Operand ternary()
     {
         const Depth depth(*this);
-        const double condition = disjunction();
+        const Operand condition = disjunction();
         if (!take("?")) {
             return condition;
         }
-        const double yes = ternary();
+        const Operand yes = ternary();
         if (!take(":")) {
             fail("expected ':'");
         }
-        const double no = ternary();
-        return condition != 0 ? yes : no;
+        const Operand no = ternary();
+        if (condition.reg < 0) {
+            return condition.number != 0 ? yes : no;
+        }
+        return into_.add({.code = Code::choose, .a = condition, .b = yes, .c = no});
     }
-    double disjunction()
+    Operand disjunction()
     {
-        double value = conjunction();
+        Operand value = conjunction();
         while (take("||")) {
-            const double right = conjunction();
-            value = value != 0 || right != 0;
+            value = apply(either, value, conjunction());
         }
         return value;
     }
-    double conjunction()
+    Operand conjunction()
     {
-        double value = comparison();
+        Operand value = comparison();
         while (take("&&")) {
-            const double right = comparison();
-            value = value != 0 && right != 0;
+            value = apply(both, value, comparison());
         }
         return value;
     }
-    double comparison()
+    Operand comparison()
     {
-        double value = sum();
+        Operand value = sum();
         for (;;) {
             if (take("==")) {
-                value = value == sum();
+                value = apply(equal, value, sum());
             } else if (take("!=")) {
-                value = value != sum();
+                value = apply(different, value, sum());
             } else if (take("<=")) {
-                value = value <= sum();
+                value = apply(atMost, value, sum());
             } else if (take(">=")) {
-                value = value >= sum();
+                value = apply(atLeast, value, sum());
             } else if (take("<")) {
-                value = value < sum();
+                value = apply(less, value, sum());
             } else if (take(">")) {
-                value = value > sum();
+                value = apply(greater, value, sum());
             } else {
                 return value;
             }
         }
     }
-    double sum()
+    Operand sum()
     {
-        double value = product();
+        Operand value = product();
         for (;;) {
             if (take("+")) {
-                value += product();
+                value = apply(Code::add, value, product());
             } else if (take("-")) {
-                value -= product();
+                value = apply(Code::subtract, value, product());
             } else {
                 return value;
             }
         }
     }
-    double product()
+    Operand product()
     {
-        double value = unary();
+        Operand value = unary();
         for (;;) {
             if (take("*")) {
-                value *= unary();
+                value = apply(Code::multiply, value, unary());
             } else if (take("/")) {
-                value /= unary();
+                value = apply(Code::divide, value, unary());
             } else if (take("%")) {
-                value = std::fmod(value, unary());
+                value = apply(remainder, value, unary());
             } else {
                 return value;
             }
         }
     }
-    double unary()
+    Operand unary()
     {
         const Depth depth(*this);
         if (take("-")) {
-            return -unary();
+            return apply(minus, unary());
         }
         if (take("+")) {
             return unary();
@@ -196,15 +237,15 @@ private:
         skip();
         if (text_.substr(at_, 1) == "!" && text_.substr(at_, 2) != "!=") {
             ++at_;
-            return unary() == 0;
+            return apply(isNot, unary());
         }
         return primary();
     }
-    double primary()
+    Operand primary()
     {
         skip();
         if (take("(")) {
-            const double value = ternary();
+            const Operand value = ternary();
             if (!take(")")) {
                 fail("expected ')'");
             }
@@ -215,7 +256,7 @@ private:
         if (parsed.ec == std::errc() && at_ < text_.size() &&
             !std::isalpha(static_cast<unsigned char>(text_[at_]))) {
             at_ = parsed.ptr - text_.data();
-            return value;
+            return {-1, value};
         }
         std::string name;
         while (at_ < text_.size() &&
@@ -226,16 +267,27 @@ private:
             fail(at_ < text_.size() ? "unexpected '" + std::string(1, text_[at_]) + "'" : "unexpected end");
         }
         if (name == "true" || name == "false") {
-            return name == "true";
+            return {-1, name == "true" ? 1.0 : 0.0};
         }
         return call(name);
     }
-    double call(const std::string& name)
+    Operand call(const std::string& name)
     {
         if (!take("(")) {
-            fail("unknown name '" + name + "'");
+            for (const auto& [known, operand] : into_.names_) {
+                if (known == name) {
+                    return operand;
+                }
+            }
+            std::vector<std::string> known;
+            known.reserve(into_.names_.size());
+            for (const auto& item : into_.names_) {
+                known.push_back(item.first);
+            }
+            fail("unknown name '" + name + "'" +
+                 (known.empty() ? "" : " (" + suggestion(name, known, "names") + ")"));
         }
-        std::vector<double> arguments;
+        std::vector<Operand> arguments;
         if (!take(")")) {
             do {
                 arguments.push_back(ternary());
@@ -245,21 +297,21 @@ private:
             }
         }
         if (arguments.empty() && name == "pi") {
-            return std::numbers::pi;
+            return {-1, std::numbers::pi};
         }
         if (arguments.empty() && (name == "degToRad" || name == "radToDeg")) {
-            arguments.push_back(1); // the factor itself
+            arguments.push_back({-1, 1}); // the factor itself
         }
         std::vector<std::string> valid{"pi"};
         for (const Unary& candidate : unaryFunctions) {
             if (candidate.name == name && arguments.size() == 1) {
-                return candidate.function(arguments[0]);
+                return apply(candidate.function, arguments[0]);
             }
             valid.emplace_back(candidate.name);
         }
         for (const Binary& candidate : binaryFunctions) {
             if (candidate.name == name && arguments.size() == 2) {
-                return candidate.function(arguments[0], arguments[1]);
+                return apply(candidate.function, arguments[0], arguments[1]);
             }
             valid.emplace_back(candidate.name);
         }
@@ -270,25 +322,137 @@ private:
     /// Guards the stack against hostile nesting.
     struct Depth
     {
-        explicit Depth(Evaluator& evaluator) : evaluator_(evaluator)
+        explicit Depth(Parser& parser) : parser_(parser)
         {
-            if (++evaluator_.depth_ > 400) {
-                evaluator_.fail("nested too deeply");
+            if (++parser_.depth_ > 400) {
+                parser_.fail("nested too deeply");
             }
         }
-        ~Depth() { --evaluator_.depth_; }
+        ~Depth() { --parser_.depth_; }
         Depth(const Depth&) = delete;
         Depth& operator=(const Depth&) = delete;
-        Evaluator& evaluator_;
+        Parser& parser_;
     };
 
+    Expressions& into_;
     std::string_view text_;
     std::size_t at_ = 0;
     int depth_ = 0;
 };
 
-} // namespace
+Expressions::Expressions(const std::vector<Variable>& variables)
+    : variables_(static_cast<int>(variables.size()))
+{
+    for (int i = 0; i < variables_; ++i) {
+        names_.emplace_back(variables[i].name, Operand{i, 0});
+        uniform_.push_back(variables[i].uniform ? 1 : 0);
+    }
+}
 
-double evaluateExpression(std::string_view text) { return Evaluator(text).all(); }
+void Expressions::define(const std::string& name, std::string_view text)
+{
+    const bool word = std::ranges::all_of(name, [](unsigned char c) { return std::isalnum(c) || c == '_'; });
+    if (!word || name.empty() || std::isdigit(static_cast<unsigned char>(name[0]))) {
+        throw std::invalid_argument("'" + name + "' is no name: letters, digits and _ only, a letter first");
+    }
+    if (std::ranges::any_of(names_, [&](const auto& known) { return known.first == name; })) {
+        throw std::invalid_argument("'" + name + "' has a meaning already");
+    }
+    const Operand value = Parser(*this, text).all();
+    names_.emplace_back(name, value);
+}
+
+void Expressions::addResult(std::string_view text) { results_.push_back(Parser(*this, text).all()); }
+
+Expressions::Operand Expressions::add(Operation operation)
+{
+    const auto uniform = [&](const Operand& operand) {
+        return operand.reg < 0 || uniform_[operand.reg] != 0;
+    };
+    uniform_.push_back(uniform(operation.a) && uniform(operation.b) && uniform(operation.c) ? 1 : 0);
+    operations_.push_back(operation);
+    return {static_cast<int>(uniform_.size()) - 1, 0};
+}
+
+void Expressions::evaluate(std::span<const double* const> variables, int count,
+                           std::span<double* const> results, std::vector<double>& workspace) const
+{
+    workspace.resize(workspaceSize());
+    // A register is a row of values, of the workspace or a variable's; one that is uniform has its first
+    // alone.
+    const auto row = [&](int reg) -> const double* {
+        return reg < variables_ ? variables[reg]
+                                : workspace.data() + static_cast<std::size_t>(reg - variables_) * block;
+    };
+    int next = variables_;
+    for (const Operation& operation : operations_) {
+        double* const out = workspace.data() + static_cast<std::size_t>(next - variables_) * block;
+        const int items = uniform_[next] != 0 ? 1 : count;
+        ++next;
+        // Numbers and uniform operands have the stride 0.
+        const auto read = [&](const Operand& operand, const double*& from) {
+            from = operand.reg < 0 ? &operand.number : row(operand.reg);
+            return operand.reg < 0 || uniform_[operand.reg] != 0 ? 0 : 1;
+        };
+        const double* a = nullptr;
+        const double* b = nullptr;
+        const double* c = nullptr;
+        const int da = read(operation.a, a);
+        const int db = read(operation.b, b);
+        const int dc = read(operation.c, c);
+        switch (operation.code) {
+        case Code::add:
+            for (int i = 0; i < items; ++i) {
+                out[i] = a[i * da] + b[i * db];
+            }
+            break;
+        case Code::subtract:
+            for (int i = 0; i < items; ++i) {
+                out[i] = a[i * da] - b[i * db];
+            }
+            break;
+        case Code::multiply:
+            for (int i = 0; i < items; ++i) {
+                out[i] = a[i * da] * b[i * db];
+            }
+            break;
+        case Code::divide:
+            for (int i = 0; i < items; ++i) {
+                out[i] = a[i * da] / b[i * db];
+            }
+            break;
+        case Code::unary:
+            for (int i = 0; i < items; ++i) {
+                out[i] = operation.one(a[i * da]);
+            }
+            break;
+        case Code::binary:
+            for (int i = 0; i < items; ++i) {
+                out[i] = operation.two(a[i * da], b[i * db]);
+            }
+            break;
+        case Code::choose:
+            for (int i = 0; i < items; ++i) {
+                out[i] = a[i * da] != 0 ? b[i * db] : c[i * dc];
+            }
+            break;
+        }
+    }
+    for (std::size_t k = 0; k < results_.size(); ++k) {
+        const Operand& result = results_[k];
+        const double* const from = result.reg < 0 ? &result.number : row(result.reg);
+        const int step = result.reg < 0 || uniform_[result.reg] != 0 ? 0 : 1;
+        for (int i = 0; i < count; ++i) {
+            results[k][i] = from[i * step];
+        }
+    }
+}
+
+double evaluateExpression(std::string_view text)
+{
+    Expressions expression({});
+    expression.addResult(text);
+    return expression.constantResult();
+}
 
 } // namespace caisson

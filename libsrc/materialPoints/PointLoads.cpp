@@ -12,7 +12,7 @@ namespace caisson {
 
 namespace {
 
-constexpr std::string_view typeWords = "traction pressure force";
+constexpr std::string_view typeWords = "traction pressure force expression";
 constexpr std::string_view faceWords = "top bottom inner outer any all";
 
 /// One of the words of a Keyword's range.
@@ -31,9 +31,10 @@ std::vector<std::string> split(std::string_view words)
 
 PointLoad::Type typeOf(std::string_view word)
 {
-    return word == "pressure" ? PointLoad::Type::pressure
-           : word == "force"  ? PointLoad::Type::force
-                              : PointLoad::Type::traction;
+    return word == "pressure"     ? PointLoad::Type::pressure
+           : word == "force"      ? PointLoad::Type::force
+           : word == "expression" ? PointLoad::Type::expression
+                                  : PointLoad::Type::traction;
 }
 
 LoadedSurface::Face faceOf(std::string_view word)
@@ -171,14 +172,22 @@ std::vector<std::string> pointLoadTypes() { return split(typeWords); }
 
 std::vector<Keyword> pointLoadKeywords(const std::string& type)
 {
-    std::vector<Keyword> keywords = {{"type", "word", "", typeWords, "what uniformValue is"}};
+    std::vector<Keyword> keywords = {
+        {"type", "word", "", typeWords,
+         "what uniformValue is; or expression: a traction [Pa] given by r and z"}};
     if (type == "pressure") {
         keywords.push_back({"direction", "vector", "", "", "in which the pressure pushes: (1 0 0) along +r"});
     }
-    keywords.push_back({"uniformValue", "Function1", "", "",
-                        "as a function of time: traction (r 0 z) [Pa], or pressure [Pa], or force (r 0 z) on "
-                        "all its points, "
-                        "round the whole axis [N] (plane strain: per metre [N/m])"});
+    if (type == "expression") {
+        const std::vector<Keyword> vector = pointVectorKeywords();
+        keywords.insert(keywords.end(), vector.begin(), vector.end());
+    } else {
+        keywords.push_back(
+            {"uniformValue", "Function1", "", "",
+             "as a function of time: traction (r 0 z) [Pa], or pressure [Pa], or force (r 0 z) on "
+             "all its points, "
+             "round the whole axis [N] (plane strain: per metre [N/m])"});
+    }
     if (type != "force") {
         keywords.push_back({"areaFollows", "flag", "no", "",
                             "axisymmetric: whether the points' areas grow with r over the initial r"});
@@ -229,7 +238,9 @@ std::vector<PointLoad> readPointLoads(const Dictionary& loads, Geometry geometry
                 load.direction = {direction[0] / length, direction[2] / length};
             }
         }
-        if (!reader.has("uniformValue")) {
+        if (load.type == PointLoad::Type::expression) {
+            load.expression = readPointVector(reader, "load '" + entry.keyword + "'");
+        } else if (!reader.has("uniformValue")) {
             problems.add(entry.where, "missing key 'uniformValue' in '" + entry.keyword + "'");
         } else if (load.type == PointLoad::Type::pressure) {
             load.value.component[0] = readFunction1(own, "uniformValue", problems);

@@ -2,6 +2,7 @@
 
 #include "function1/Function1.h"
 #include "materialPoints/MaterialPoints.h"
+#include "materialPoints/PointVector.h"
 #include "materialPoints/SeedRegions.h"
 
 namespace caisson {
@@ -10,13 +11,14 @@ namespace caisson {
 /// area of its own (MaterialPoints::load, loadArea).
 struct PointLoad
 {
-    enum class Type { traction, pressure, force };
+    enum class Type { traction, pressure, force, expression };
     std::string name;
     Type type = Type::traction;
     std::array<double, 2> direction{}; ///< of a pressure: unit vector (r z)
     /// traction [Pa], pressure [Pa] in component 0, or force [N] ([N/m] in plane strain) of all its points,
     /// of time [s]
     VectorFunction1 value;
+    PointVector expression;   ///< traction [Pa] of each of its points, in place of value
     bool areaFollows = false; ///< axisymmetry: the areas grow with r over the initial r
 
     /// Force over area (r z) [Pa].

@@ -1,6 +1,7 @@
 #include "scene/CaseScene.h"
 
 #include "case/FileIO.h"
+#include "dictionary/Text.h"
 #include "materialPoints/CloudConversion.h"
 #include "mesh/CellLocator.h"
 #include "scene/SeepageScene.h"
@@ -8,6 +9,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
 #include <limits>
 
 namespace caisson {
@@ -164,6 +166,32 @@ void checkLoads(const std::filesystem::path& start, const CaseScene& result, Inp
         if (std::ranges::find(carried, static_cast<int>(l)) == carried.end()) {
             problems.add({"constant/pointLoads", 0}, "no material point carries load '" + loads[l].name + "'",
                          "loadedPoints in system/setMaterialPointsDict; " + again);
+        }
+    }
+}
+
+/// At the start at least, the body force must have a value at every point.
+void checkBodyForce(const std::filesystem::path& start, const CaseScene& result, InputProblems& problems)
+{
+    const double time = std::strtod(start.filename().c_str(), nullptr);
+    const MaterialPoints& points = result.state.points;
+    const PointVector& force = result.scene.bodyForce;
+    if (!force.given()) {
+        return;
+    }
+    std::vector<double> r(points.size());
+    std::vector<double> z(points.size());
+    PointVector::Workspace room = force.workspace();
+    force.evaluate(points, 0, static_cast<int>(points.size()), time, 0, r.data(), z.data(), room);
+    for (std::size_t p = 0; p < points.size(); ++p) {
+        if (!std::isfinite(r[p]) || !std::isfinite(z[p])) {
+            problems.add({"constant/bodyForce", 0},
+                         text("'%s' is no finite number at t = %g s at the material point with r %g, z %g, "
+                              "R %g, Z %g",
+                              std::isfinite(r[p]) ? "z" : "r", time, points.r[p], points.z[p],
+                              points.initialR[p], points.initialZ[p]),
+                         "is something divided by zero there?");
+            return;
         }
     }
 }
@@ -359,6 +387,19 @@ CaseScene readCaseScene(const std::filesystem::path& caseDirectory, const std::f
             scene.pointLoads = readPointLoads(*dictionary, state.mesh.geometry, problems);
         }
     }
+    if (fileExists(caseDirectory / "constant/bodyForce")) {
+        if (const auto dictionary = readCaseDictionary(caseDirectory, "constant/bodyForce", "", problems)) {
+            const std::vector<Keyword> keywords = pointVectorKeywords();
+            const KeywordReader reader(*dictionary, keywords, "bodyForce", problems);
+            scene.bodyForce = readPointVector(reader, "bodyForce");
+        }
+        if (scene.controls.phases == 2 ||
+            scene.controls.pressureCoupling == SolutionControls::PressureCoupling::quasiSteady) {
+            problems.add({"constant/bodyForce", 0},
+                         "a body force acts on one-phase soil, but system/mpmSolution asks for pore water",
+                         "phases 1, without pressureCoupling quasiSteady; or leave the file out");
+        }
+    }
     // The mesh must fit the bodies where constant/polyMesh has them.
     for (const RigidBody& body : state.bodies) {
         const BodySurface surface = findBodySurface(body, state.mesh, problems);
@@ -439,6 +480,7 @@ CaseScene readCaseScene(const std::filesystem::path& caseDirectory, const std::f
         }
     }
     readPoints(start, result, problems);
+    checkBodyForce(start, result, problems);
     const SourceLocation points{start.filename().string() + "/lagrangian/materialPoints", 0};
     if (scene.controls.phases == 2 && !state.points.twoPhase()) {
         problems.add(points, "the points have no pore pressure, but system/mpmSolution asks for phases 2",

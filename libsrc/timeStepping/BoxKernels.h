@@ -164,6 +164,7 @@ void ExplicitStep<Shape, phases>::mapBoxCellToNodes(const State& state, int c)
 {
     const MaterialPoints& points = state.points;
     const bool loaded = points.loaded();
+    const bool given = scene_.bodyForce.given();
     Corner sum[corners] = {};
     forPartsIn(state, c, [&](int p, const BoxPart& part) {
         const double m = points.mass[p];
@@ -180,6 +181,10 @@ void ExplicitStep<Shape, phases>::mapBoxCellToNodes(const State& state, int c)
             const std::array<double, 2> load = pointLoad(points, p);
             forceR += load[0];
             forceZ += load[1];
+        }
+        if (given) {
+            forceR += m * bodyForceR_[p];
+            forceZ += m * bodyForceZ_[p];
         }
         for (int k = 0; k < corners; ++k) {
             sum[k].mass += part.N[k] * m;

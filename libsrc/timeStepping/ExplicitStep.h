@@ -244,6 +244,8 @@ private:
         requires hasBoxes;
     void strainBoxPoints(State& state, double dt, int c)
         requires hasBoxes;
+    void evaluateExpressions(const State& state, double dt);
+    void addBodyForce(const State& state, int c);
     void solveNodes(State& state, double dt);
     void findFreeSurfaces(const State& state);
     void updateWallAreas(const State& state);
@@ -390,6 +392,12 @@ private:
     std::vector<double> cellLiquidRate_;                     ///< as cellRate_, for the liquid
     std::vector<double> loadedArea_;                         ///< per load: of its points (see loadedAreas)
     std::vector<std::array<double, 2>> pointTraction_;       ///< per load, now [Pa]
+    // With a body force only: acceleration of the points in this step [m/s2].
+    std::vector<double> bodyForceR_, bodyForceZ_;
+    std::vector<PointVector::Workspace> bodyForceRoom_; ///< per thread
+    // With loads given by expressions only: tractions of the points in this step [Pa].
+    std::vector<double> expressionR_, expressionZ_;
+    std::vector<std::vector<PointVector::Workspace>> expressionRoom_; ///< per thread and load
     // Projection only.
     std::vector<Mobility> mobility_;             ///< per node
     std::vector<WallTouch> wallTouches_;         ///< of this step

@@ -180,6 +180,23 @@ ExplicitStep<Shape, phases>::ExplicitStep(const Scene& scene, State& state)
     surfacePressure_.resize(scene.freeSurfaces.size());
     loadedArea_ = loadedAreas(state.points, scene.pointLoads.size(), mesh.geometry);
     pointTraction_.resize(scene.pointLoads.size());
+    if (scene.bodyForce.given()) {
+        bodyForceR_.resize(state.points.size());
+        bodyForceZ_.resize(state.points.size());
+        bodyForceRoom_.assign(threads_.count(), scene.bodyForce.workspace());
+    }
+    if (state.points.loaded() && std::ranges::any_of(scene.pointLoads, [](const PointLoad& load) {
+            return load.expression.given();
+        })) {
+        expressionR_.resize(state.points.size());
+        expressionZ_.resize(state.points.size());
+        expressionRoom_.resize(threads_.count());
+        for (std::vector<PointVector::Workspace>& ofThread : expressionRoom_) {
+            for (const PointLoad& load : scene.pointLoads) {
+                ofThread.push_back(load.expression.workspace());
+            }
+        }
+    }
     cellRate_.assign(cells, 0);
     if constexpr (twoPhase) {
         liquidCorners_.resize(cells * corners);
@@ -541,7 +558,8 @@ std::string ExplicitStep<Shape, phases>::description() const
              : controls.locking == SolutionControls::Locking::meanDilatation ? ", mean dilatation"
                                                                              : ", nodal dilatation";
     words += boxCell_.empty() ? "" : ", boxes of " + text("%g", controls.boxWidth) + " cells";
-    words += controls.mayHaveFemCells() ? ", FEM cells" : "";
+    words += controls.mayHaveFemCells() && !scene_.bodyForce.given() ? ", FEM cells" : "";
+    words += scene_.bodyForce.given() ? ", body force" : "";
     words += projects() ? ", projection" : "";
 #if defined(__AVX512F__)
     words += ", AVX-512";
@@ -560,6 +578,9 @@ void ExplicitStep<Shape, phases>::advance(State& state, double dt)
     updateSurfacePressures(state);
     if (state.step == 0) {
         staggerStrain(state, dt);
+    }
+    if (scene_.bodyForce.given() || !expressionR_.empty()) {
+        evaluateExpressions(state, dt);
     }
     moveBodies(state, dt);
     for (std::size_t b = 0; b < state.bodies.size(); ++b) {
@@ -1001,6 +1022,9 @@ std::array<double, 2> ExplicitStep<Shape, phases>::pointLoad(const MaterialPoint
     const int load = points.load[p];
     const double growth = scene_.pointLoads[load].areaFollows ? points.r[p] / points.initialR[p] : 1.0;
     const double area = growth * points.loadArea[p];
+    if (scene_.pointLoads[load].expression.given()) {
+        return {area * expressionR_[p], area * expressionZ_[p]};
+    }
     return {area * pointTraction_[load][0], area * pointTraction_[load][1]};
 }
 
@@ -1023,6 +1047,49 @@ void ExplicitStep<Shape, phases>::addPointLoads(const State& state, int c)
     }
 }
 
+/// What the expressions are at the points. What takes the velocities over a step are the forces in its
+/// middle.
+template <class Shape, int phases>
+void ExplicitStep<Shape, phases>::evaluateExpressions(const State& state, double dt)
+{
+    const MaterialPoints& points = state.points;
+    const double time = state.time + 0.5 * dt;
+    const double lead = 0.5 * dt;
+    threads_.run([&](int part) {
+        inBlocks(0, static_cast<int>(points.size()), part, [&](int begin, int end) {
+            if (scene_.bodyForce.given()) {
+                scene_.bodyForce.evaluate(points, begin, end, time, lead, bodyForceR_.data() + begin,
+                                          bodyForceZ_.data() + begin, bodyForceRoom_[part]);
+            }
+            for (int p = begin; p < end && !expressionR_.empty(); ++p) {
+                const int load = points.load[p];
+                if (load >= 0 && scene_.pointLoads[load].expression.given()) {
+                    scene_.pointLoads[load].expression.evaluate(points, p, p + 1, time, lead,
+                                                                &expressionR_[p], &expressionZ_[p],
+                                                                expressionRoom_[part][load]);
+                }
+            }
+        });
+    });
+}
+
+/// As weight: on the true mass, not on scaled inertia; in filled cells on that of the whole cell.
+template <class Shape, int phases>
+void ExplicitStep<Shape, phases>::addBodyForce(const State& state, int c)
+{
+    const MaterialPoints& points = state.points;
+    Values values;
+    for (const int* i = pointCells_.begin(c); i != pointCells_.end(c); ++i) {
+        const int p = *i;
+        const double mass = fullness_[c] * points.mass[p];
+        Shape::evaluate(cells_[c], points.r[p], points.z[p], values);
+        for (int k = 0; k < corners; ++k) {
+            cornerSums_[c * corners + k].forceR += values.N[k] * mass * bodyForceR_[p];
+            cornerSums_[c * corners + k].forceZ += values.N[k] * mass * bodyForceZ_[p];
+        }
+    }
+}
+
 template <class Shape, int phases>
 void ExplicitStep<Shape, phases>::mapToNodes(State& state)
 {
@@ -1035,7 +1102,9 @@ void ExplicitStep<Shape, phases>::mapToNodes(State& state)
     }
     const bool loaded = state.points.loaded();
     for (std::size_t l = 0; loaded && l < pointTraction_.size(); ++l) {
-        pointTraction_[l] = scene_.pointLoads[l].traction(state.time, loadedArea_[l]);
+        if (!scene_.pointLoads[l].expression.given()) {
+            pointTraction_[l] = scene_.pointLoads[l].traction(state.time, loadedArea_[l]);
+        }
     }
     if constexpr (hasBoxes) {
         if (!boxCell_.empty()) {
@@ -1062,6 +1131,9 @@ void ExplicitStep<Shape, phases>::mapToNodes(State& state)
         }
         if (loaded) {
             addPointLoads(state, c);
+        }
+        if (scene_.bodyForce.given()) {
+            addBodyForce(state, c);
         }
     });
     if (scene_.conditions.hasTractions()) {

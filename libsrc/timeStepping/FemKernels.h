@@ -94,7 +94,7 @@ template <class Shape, int phases>
 void ExplicitStep<Shape, phases>::chooseFemCells(const State& state)
 {
     const SolutionControls& controls = scene_.controls;
-    if (!controls.mayHaveFemCells()) {
+    if (!controls.mayHaveFemCells() || scene_.bodyForce.given()) { // which acts on points where they are
         return;
     }
     const MaterialPoints& points = state.points;

@@ -7,6 +7,7 @@
 #include "constitutive/Material.h"
 #include "materialPoints/MaterialPoints.h"
 #include "materialPoints/PointLoads.h"
+#include "materialPoints/PointVector.h"
 #include "mesh/MeshMotion.h"
 
 #include <limits>
@@ -96,6 +97,7 @@ struct Scene
     LiquidBoundary liquidBoundary;         ///< two phases: patches
     std::vector<FreeSurface> freeSurfaces; ///< two phases: surfaces of the soil under water or air
     std::vector<PointLoad> pointLoads;
+    PointVector bodyForce; ///< one phase: acceleration of the soil besides gravity [m/s2]
     MeshMotion motion;
     int movingBody = -1;            ///< index of the body that the mesh follows, or -1
     std::vector<double> referenceZ; ///< node heights of constant/polyMesh [m]

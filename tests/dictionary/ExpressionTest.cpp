@@ -2,9 +2,12 @@
 
 #include <gtest/gtest.h>
 
+#include <cctype>
 #include <cmath>
 #include <numbers>
 #include <stdexcept>
+#include <string>
+#include <vector>
 
 namespace caisson {
 
@@ -89,6 +92,66 @@ TEST(Expression, whatIsWrongIsSaid)
     EXPECT_EQ(refusal("pi"), "unknown name 'pi' at character 3 of 'pi'");
     EXPECT_EQ(refusal("sinn(1)").substr(0, 60),
               "no function 'sinn' of 1 arguments (did you mean 'sin'?  vali");
+}
+
+TEST(Expressions, ofVariablesAreThoseOfTheirNumbers)
+{
+    const char* texts[] = {"x + 2*t - x/3",
+                           "x > 1 ? -x : t % 0.3",
+                           "!(x < t) || x == 2",
+                           "min(x, t)*pow(2, x)",
+                           "hypot(x, t) - atan2(t, x)",
+                           "3",
+                           "x",
+                           "t"};
+    for (const char* text : texts) {
+        Expressions expressions({{"x", false}, {"t", true}});
+        expressions.addResult(text);
+        const double x[] = {0.5, 1, 2};
+        const double t = 1;
+        const double* const variables[] = {x, &t};
+        double got[3];
+        double* const results[] = {got};
+        std::vector<double> workspace;
+        expressions.evaluate(variables, 3, results, workspace);
+        for (int i = 0; i < 3; ++i) {
+            std::string numbers;
+            for (const char c : std::string(text)) { // no function has an x or a t alone
+                numbers += c;
+            }
+            const auto put = [&](char name, double value) {
+                for (std::size_t at = numbers.find(name); at != std::string::npos;
+                     at = numbers.find(name, at)) {
+                    const bool alone = (at == 0 || std::isalpha(numbers[at - 1]) == 0) &&
+                                       (at + 1 == numbers.size() || (std::isalnum(numbers[at + 1]) == 0));
+                    const std::string with = alone ? "(" + std::to_string(value) + ")" : std::string(1, name);
+                    numbers.replace(at, 1, with);
+                    at += with.size();
+                }
+            };
+            put('x', x[i]);
+            put('t', t);
+            EXPECT_DOUBLE_EQ(got[i], evaluateExpression(numbers)) << text << " at " << x[i];
+        }
+    }
+}
+
+TEST(Expressions, namesAreOfWhatWasDefinedBefore)
+{
+    Expressions expressions({{"x", false}});
+    expressions.define("a", "2*x");
+    expressions.define("b", "a + 1");
+    expressions.addResult("a*b");
+    EXPECT_THROW(expressions.define("x", "1"), std::invalid_argument);
+    EXPECT_THROW(expressions.define("2a", "1"), std::invalid_argument);
+    EXPECT_THROW(expressions.addResult("c"), std::invalid_argument);
+    const double x = 3;
+    const double* const variables[] = {&x};
+    double got = 0;
+    double* const results[] = {&got};
+    std::vector<double> workspace;
+    expressions.evaluate(variables, 1, results, workspace);
+    EXPECT_EQ(got, 42);
 }
 
 } // namespace caisson

@@ -98,7 +98,7 @@ TEST(PointLoads, wrongOnesAreNamed)
     };
     EXPECT_EQ(
         wrong("a { type presure; uniformValue 1; }").at(0),
-        "unknown word 'presure' for type of a load | did you mean 'pressure'?  valid types: force pressure "
+        "unknown word 'presure' for type of a load | did you mean 'pressure'?  valid types: expression force pressure "
         "traction");
     EXPECT_EQ(wrong("a { type pressure; direction (0 1 0); uniformValue 1; }").at(0),
               "the direction must lie in the plane of r and z | direction (1 0 0);");

@@ -118,6 +118,8 @@ TEST(AnnotatedExamples, pointLoadsExplainEveryKeyOfEveryType)
     }
 }
 
+TEST(AnnotatedExamples, bodyForceExplainsEveryKey) { expectExplained("bodyForce", pointVectorKeywords()); }
+
 TEST(AnnotatedExamples, velocityShowsEveryTypeOfCondition)
 {
     const std::string text = annotated("U");

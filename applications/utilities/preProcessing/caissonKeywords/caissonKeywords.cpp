@@ -94,6 +94,10 @@ std::string allTables()
             tables("every body", "body of shape", bodyShapes(), bodyKeywords);
     text += "## constant/pointLoads\n\nLoads on material points, one sub-dictionary each.\n\n" +
             tables("every load", "load of type", pointLoadTypes(), pointLoadKeywords);
+    text +=
+        "## constant/bodyForce\n\nAcceleration of one-phase soil besides gravity [m/s2], where the file is "
+        "there.\n\n" +
+        table("bodyForce", pointVectorKeywords());
     text += "## constant/dynamicMeshDict\n\n" + table("dynamicMeshDict", meshMotionKeywords());
     text += "## system/coarsenMeshDict\n\n" + table("coarsenMeshDict", coarsenMeshKeywords());
     text += "## constant/g\n\n" + table("g", gravityKeywords());
