@@ -115,6 +115,8 @@ Cloud cloud(const MaterialPoints& points, const std::vector<std::string>& stateN
     if (points.loaded()) {
         result.fields.push_back(labels("load", points.load));
         result.fields.push_back(plain("loadArea", points.loadArea));
+        result.fields.push_back(
+            interleaved("loadReach", FieldKind::vector, n, inPlane(points.loadReachR, points.loadReachZ)));
     }
     for (std::size_t k = 0; k < stateNames.size(); ++k) {
         result.fields.push_back(plain(stateNames[k], points.state[k]));
@@ -167,6 +169,9 @@ MaterialPoints materialPoints(const Cloud& cloud, const std::vector<std::string>
     if (std::ranges::find(cloud.fields, "load", &NamedField::name) != cloud.fields.end()) {
         points.load = integers(values(cloud, "load", FieldKind::label));
         points.loadArea = values(cloud, "loadArea", FieldKind::scalar);
+        const auto& reach = values(cloud, "loadReach", FieldKind::vector);
+        points.loadReachR = component(reach, 0, 3);
+        points.loadReachZ = component(reach, 2, 3);
     }
     for (const std::string& name : stateNames) {
         points.state.push_back(values(cloud, name, FieldKind::scalar));

@@ -35,6 +35,8 @@ void forEachArray(MaterialPoints& points, const Change& change)
     }
     if (points.loaded()) {
         change(points.loadArea);
+        change(points.loadReachR);
+        change(points.loadReachZ);
         change(points.load);
     }
 }

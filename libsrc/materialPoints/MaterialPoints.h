@@ -27,10 +27,10 @@ struct MaterialPoints
     /// With affine transfer only, otherwise empty: the gradient of its velocity that a point brings to the
     /// nodes, rr rz zr zz with the component first [1/s].
     std::array<std::vector<double>, 4> gradient;
-    /// With point loads only, otherwise empty: index of the point's load or -1, and the area that it acts on
-    /// at the start [m2/rad] or [m].
+    /// With point loads only, otherwise empty: index of the point's load or -1, the area that it acts on
+    /// at the start [m2/rad] or [m], and how far from the point the loaded surface was then [m].
     std::vector<int> load;
-    std::vector<double> loadArea;
+    std::vector<double> loadArea, loadReachR, loadReachZ;
 
     [[nodiscard]] std::size_t size() const { return r.size(); }
     [[nodiscard]] bool twoPhase() const { return !porePressure.empty(); }

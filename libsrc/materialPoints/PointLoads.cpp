@@ -72,8 +72,14 @@ public:
         }
     }
 
-    /// Adds the area [m2/rad] or [m] of the sides of `cell` that look to the face to the points next to them.
-    void addSides(int cell, LoadedSurface::Face face, std::vector<double>& area) const
+    /// Area of a point on the surface [m2/rad] or [m], and the way to the surface times that area.
+    struct Share
+    {
+        double area = 0, reachR = 0, reachZ = 0;
+    };
+
+    /// Adds the area of the sides of `cell` that look to the face to the points next to them.
+    void addSides(int cell, LoadedSurface::Face face, std::vector<Share>& shares) const
     {
         for (int k = 0; k < mesh_.corners; ++k) {
             const int neighbour = mesh_.neighbour[cell * mesh_.corners + k];
@@ -105,7 +111,14 @@ public:
             const double meanR = 0.5 * (mesh_.r[a] + mesh_.r[b]);
             const double whole = length * (mesh_.geometry == Geometry::axisymmetric ? meanR : 1);
             for (const auto& [p, count] : found) {
-                area[p] += whole * points_.volume[p] / volume;
+                const double area = whole * points_.volume[p] / volume;
+                const double normalR = dz / length;
+                const double normalZ = -dr / length;
+                const double reach =
+                    (mesh_.r[a] - points_.r[p]) * normalR + (mesh_.z[a] - points_.z[p]) * normalZ;
+                shares[p].area += area;
+                shares[p].reachR += area * reach * normalR;
+                shares[p].reachZ += area * reach * normalZ;
             }
         }
     }
@@ -122,18 +135,19 @@ private:
     std::vector<std::vector<int>> inCell_;
 };
 
-/// Area of each point on the surface [m2/rad] or [m]; zero for those that are not.
-std::vector<double> shareOut(const MaterialPoints& points, const BackgroundMesh& mesh,
-                             const LoadedSurface& surface, const SurfaceShares& shares,
-                             const std::vector<int>& selected)
+/// Area of each point on the surface [m2/rad] or [m], zero for those that are not; and the way from the point
+/// to the surface [m].
+std::vector<SurfaceShares::Share> shareOut(const MaterialPoints& points, const BackgroundMesh& mesh,
+                                           const LoadedSurface& surface, const SurfaceShares& shares,
+                                           const std::vector<int>& selected)
 {
-    std::vector<double> area(points.size(), 0);
+    std::vector<SurfaceShares::Share> result(points.size());
     if (surface.face == LoadedSurface::Face::all) {
         for (const int p : selected) {
-            area[p] = points.volume[p];
+            result[p].area = points.volume[p];
         }
     } else {
-        std::vector<double> whole(points.size(), 0);
+        std::vector<SurfaceShares::Share> whole(points.size());
         int last = -1;
         for (const int p : selected) {
             if (points.cell[p] != last) { // points ascend by cell
@@ -142,17 +156,24 @@ std::vector<double> shareOut(const MaterialPoints& points, const BackgroundMesh&
             }
         }
         for (const int p : selected) { // a cell may reach beyond the region
-            area[p] = whole[p];
+            result[p] = whole[p];
+        }
+    }
+    double sum = 0;
+    for (SurfaceShares::Share& share : result) {
+        sum += share.area;
+        if (share.area > 0) {
+            share.reachR /= share.area;
+            share.reachZ /= share.area;
         }
     }
     if (surface.area > 0) {
         const double round = mesh.geometry == Geometry::axisymmetric ? 2 * std::numbers::pi : 1;
-        const double sum = std::accumulate(area.begin(), area.end(), 0.0);
-        for (double& a : area) {
-            a *= sum > 0 ? surface.area / (round * sum) : 0;
+        for (SurfaceShares::Share& share : result) {
+            share.area *= sum > 0 ? surface.area / (round * sum) : 0;
         }
     }
-    return area;
+    return result;
 }
 
 } // namespace
@@ -314,6 +335,8 @@ std::vector<LoadedPoints> loadPoints(MaterialPoints& points, const BackgroundMes
     }
     points.load.assign(points.size(), -1);
     points.loadArea.assign(points.size(), 0);
+    points.loadReachR.assign(points.size(), 0);
+    points.loadReachZ.assign(points.size(), 0);
     const SurfaceShares shares(points, mesh);
     for (const LoadedSurface& surface : surfaces) {
         std::vector<bool> reaches(mesh.cells(), false);
@@ -326,18 +349,20 @@ std::vector<LoadedPoints> loadPoints(MaterialPoints& points, const BackgroundMes
                 selected.push_back(static_cast<int>(p));
             }
         }
-        const std::vector<double> area = shareOut(points, mesh, surface, shares, selected);
+        const std::vector<SurfaceShares::Share> share = shareOut(points, mesh, surface, shares, selected);
         LoadedPoints& report = result.emplace_back();
         std::size_t twice = 0;
         for (const int p : selected) {
-            if (!(area[p] > 0)) {
+            if (!(share[p].area > 0)) {
                 continue;
             }
             twice += points.load[p] >= 0 ? 1 : 0;
             points.load[p] = surface.load;
-            points.loadArea[p] = area[p];
+            points.loadArea[p] = share[p].area;
+            points.loadReachR[p] = share[p].reachR;
+            points.loadReachZ[p] = share[p].reachZ;
             ++report.points;
-            report.area += area[p];
+            report.area += share[p].area;
         }
         if (report.points == 0) {
             problems.add(surface.region.where,

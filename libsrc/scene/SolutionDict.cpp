@@ -13,6 +13,10 @@ constexpr Keyword keywords[] = {
      "share of a checkerboard of pore pressures that is removed every ten steps; two phases only"},
     {"integration", "word", "mixed", "mixed points",
      "mixed: cells filled with soil with their own volume, others at their points; points: all at points"},
+    {"fittedWeights", "flag", "no", "",
+     "points of filled cells weigh so that their centre is the cell's: second order at large strain; one "
+     "phase, "
+     "quadrilaterals"},
     {"volumetricLocking", "word", "automatic", "automatic none meanDilatation nodalAverage",
      "treatment of locking; automatic: meanDilatation on quadrilaterals, nodalAverage on triangles"},
     {"shapeFunctions", "word", "linear", "linear GIMP BSpline",
@@ -88,6 +92,12 @@ SolutionControls readSolutionControls(const Dictionary& mpmSolution, bool triang
     controls.checkerboardFilter = reader.number("checkerboardFilter");
     controls.integration = reader.word("integration") == "points" ? SolutionControls::Integration::points
                                                                   : SolutionControls::Integration::mixed;
+    controls.fittedWeights = reader.flag("fittedWeights");
+    if (controls.fittedWeights && (triangles || controls.phases == 2 ||
+                                   controls.integration == SolutionControls::Integration::points)) {
+        reader.problem("fittedWeights", "weights are fitted in filled quadrilaterals of one phase",
+                       "fittedWeights no; or phases 1, integration mixed");
+    }
     const std::string locking = reader.word("volumetricLocking");
     if (locking == "none") {
         controls.locking = SolutionControls::Locking::none;
@@ -168,7 +178,7 @@ SolutionControls readSolutionControls(const Dictionary& mpmSolution, bool triang
     if (controls.femCells == SolutionControls::FemCells::automatic && !controls.mayHaveFemCells()) {
         reader.problem("femCells",
                        "FEM cells need integration mixed, a treatment of volumetricLocking, and other "
-                       "velocities than those of velocityRemap all or affine",
+                       "velocities than those of velocityRemap all or affine, and no fittedWeights",
                        "femCells none; or those settings");
     }
     controls.localDamping = reader.number("localDamping");

@@ -10,6 +10,23 @@
 
 namespace caisson {
 
+namespace kernels {
+
+/// Factor on the weights of the points of a filled cell, linear in local coordinates about the points'
+/// centre.
+struct Fit
+{
+    double xi = 0, eta = 0;           ///< centre
+    double slopeXi = 0, slopeEta = 0; ///< 0: as they come
+
+    [[nodiscard]] double at(double x, double y) const
+    {
+        return 1 + slopeXi * (x - xi) + slopeEta * (y - eta);
+    }
+};
+
+} // namespace kernels
+
 /// Explicit step of soil on cells of one Shape (see CellShapes.h): of one phase, or of two, soil and liquid
 /// with velocities of their own (LiquidKernels.h).
 ///
@@ -244,6 +261,9 @@ private:
         requires hasBoxes;
     void strainBoxPoints(State& state, double dt, int c)
         requires hasBoxes;
+    void findPartialNodes(const State& state);
+    [[nodiscard]] bool fits(int c) const { return !fit_.empty() && byPartial_[c] == 0; }
+    [[nodiscard]] kernels::Fit fitWeights(const State& state, int c) const;
     void evaluateExpressions(const State& state, double dt);
     void addBodyForce(const State& state, int c);
     void solveNodes(State& state, double dt);
@@ -347,6 +367,9 @@ private:
     /// the stress is: the points are samples. Otherwise a cell with few points would have the stiffness of a
     /// full one on a small mass, and rows of points that cross a line would shift weight from cell to cell.
     std::vector<double> fullness_;
+    std::vector<kernels::Fit> fit_;          ///< per cell, with fittedWeights only
+    std::vector<unsigned char> byPartial_;   ///< likewise: has a node of a partly filled cell
+    std::vector<unsigned char> partialNode_; ///< likewise: of a partly filled cell
     std::vector<std::array<double, 2>>
         pointCentre_;                   ///< of filled cells: mean local coordinates of the points
     std::vector<double> gravityShare_;  ///< per material: weighing over inertial density

@@ -160,6 +160,11 @@ ExplicitStep<Shape, phases>::ExplicitStep(const Scene& scene, State& state)
         component.resize(scene.controls.affine ? state.points.size() : 0, 0);
     }
     pointCentre_.resize(cells);
+    if (scene.controls.fittedWeights) {
+        fit_.resize(cells);
+        byPartial_.resize(cells);
+        partialNode_.resize(mesh.nodes());
+    }
     restless_.resize(threads_.count());
     if (scene.controls.mayHaveFemCells()) {
         innerNode_.resize(mesh.nodes());
@@ -178,6 +183,10 @@ ExplicitStep<Shape, phases>::ExplicitStep(const Scene& scene, State& state)
     traction_.resize(mesh.nodes());
     unitWeight_ = scene.materials.front().liquidDensity * scene.gravity[1];
     surfacePressure_.resize(scene.freeSurfaces.size());
+    if (state.points.loaded()) {
+        state.points.loadReachR.resize(state.points.size(), 0);
+        state.points.loadReachZ.resize(state.points.size(), 0);
+    }
     loadedArea_ = loadedAreas(state.points, scene.pointLoads.size(), mesh.geometry);
     pointTraction_.resize(scene.pointLoads.size());
     if (scene.bodyForce.given()) {
@@ -417,6 +426,71 @@ void ExplicitStep<Shape, phases>::classifyCells(State& state)
         }
         state.filled[c] = filled;
     });
+    if (!fit_.empty()) {
+        findPartialNodes(state);
+    }
+}
+
+/// Beside cells that count their points as they are, the others do so too: nodes must not weigh points of one
+/// row in two ways.
+template <class Shape, int phases>
+void ExplicitStep<Shape, phases>::findPartialNodes(const State& state)
+{
+    std::ranges::fill(partialNode_, 0);
+    for (const int c : activeCells_) {
+        for (int k = 0; !state.filled[c] && k < corners; ++k) {
+            partialNode_[cellNodes_[c * corners + k]] = 1;
+        }
+    }
+    forCells([&](int c) {
+        byPartial_[c] = 0;
+        for (int k = 0; k < corners; ++k) {
+            byPartial_[c] |= partialNode_[cellNodes_[c * corners + k]];
+        }
+    });
+}
+
+/// The points of a filled cell as the samples of a quadrature that is exact for linear functions: the centre
+/// of their volumes is moved to that of the cell's. No weight changes by more than nine tenths.
+template <class Shape, int phases>
+kernels::Fit ExplicitStep<Shape, phases>::fitWeights(const State& state, int c) const
+{
+    constexpr double largestChange = 0.9;
+    kernels::Fit fit;
+    if constexpr (corners == 4) {
+        const MaterialPoints& points = state.points;
+        double w = 0, wx = 0, wy = 0, wxx = 0, wyy = 0, wxy = 0;
+        double left = 1, right = -1, low = 1, high = -1;
+        for (const int* i = pointCells_.begin(c); i != pointCells_.end(c); ++i) {
+            const auto [x, y] = Shape::local(cells_[c], points.r[*i], points.z[*i]);
+            const double v = points.volume[*i];
+            w += v;
+            wx += v * x;
+            wy += v * y;
+            wxx += v * x * x;
+            wyy += v * y * y;
+            wxy += v * x * y;
+            left = std::min(left, x);
+            right = std::max(right, x);
+            low = std::min(low, y);
+            high = std::max(high, y);
+        }
+        fit.xi = wx / w;
+        fit.eta = wy / w;
+        const kernels::Spread spread(wxx / w - fit.xi * fit.xi, wyy / w - fit.eta * fit.eta,
+                                     wxy / w - fit.xi * fit.eta);
+        const double cx = Shape::moments(cells_[c]).xiCentre - fit.xi;
+        const double cy = -fit.eta;
+        fit.slopeXi = spread.slopeXi(cx, cy);
+        fit.slopeEta = spread.slopeEta(cx, cy);
+        const double change = std::abs(fit.slopeXi) * std::max(right - fit.xi, fit.xi - left) +
+                              std::abs(fit.slopeEta) * std::max(high - fit.eta, fit.eta - low);
+        if (change > largestChange) {
+            fit.slopeXi *= largestChange / change;
+            fit.slopeEta *= largestChange / change;
+        }
+    }
+    return fit;
 }
 
 template <class Shape, int phases>
@@ -558,6 +632,7 @@ std::string ExplicitStep<Shape, phases>::description() const
              : controls.locking == SolutionControls::Locking::meanDilatation ? ", mean dilatation"
                                                                              : ", nodal dilatation";
     words += boxCell_.empty() ? "" : ", boxes of " + text("%g", controls.boxWidth) + " cells";
+    words += controls.fittedWeights ? ", fitted weights" : "";
     words += controls.mayHaveFemCells() && !scene_.bodyForce.given() ? ", FEM cells" : "";
     words += scene_.bodyForce.given() ? ", body force" : "";
     words += projects() ? ", projection" : "";
@@ -843,11 +918,17 @@ void ExplicitStep<Shape, phases>::mapCellToNodes(State& state, int c)
     double forceZ[corners] = {};
     Values values;
     const bool affine = points.affine();
-    const auto addInertiaAndWeight = [&](int p) {
-        const double m = twoPhase ? points.mass[p] * solidShare_[points.material[p]] : points.mass[p];
+    const bool fitted = fits(c) && state.filled[c] != 0;
+    const kernels::Fit fit = fitted ? fitWeights(state, c) : kernels::Fit{};
+    if (!fit_.empty()) {
+        fit_[c] = fit;
+    }
+    const auto addInertiaAndWeight = [&](int p, double x, double y) {
+        const double pointMass = fitted ? fit.at(x, y) * points.mass[p] : points.mass[p];
+        const double m = twoPhase ? pointMass * solidShare_[points.material[p]] : pointMass;
         const double mr = m * points.vr[p];
         const double mz = m * points.vz[p];
-        const double weight = points.mass[p] * gravityShare_[points.material[p]];
+        const double weight = pointMass * gravityShare_[points.material[p]];
         const double wr = weight * scene_.gravity[0];
         const double wz = weight * scene_.gravity[1];
         for (int k = 0; k < corners; ++k) {
@@ -871,7 +952,7 @@ void ExplicitStep<Shape, phases>::mapCellToNodes(State& state, int c)
         for (const int* i = first; i != last; ++i) {
             const int p = *i;
             const auto [x, y] = Shape::evaluate(cell, points.r[p], points.z[p], values);
-            addInertiaAndWeight(p);
+            addInertiaAndWeight(p, x, y);
             const double v = points.volume[p];
             w += v;
             if constexpr (corners == 4) {
@@ -933,6 +1014,10 @@ void ExplicitStep<Shape, phases>::mapCellToNodes(State& state, int c)
                 slopeXi[j] = spread.slopeXi(cx, cy) + knownXi;
                 slopeEta[j] = spread.slopeEta(cx, cy) + knownEta;
                 stress[j] -= knownXi * x + knownEta * y;
+                if (fitted) { // from the points' centre to that of the cell
+                    stress[j] -= (slopeXi[j] - knownXi) * (x - Shape::moments(cell).xiCentre) +
+                                 (slopeEta[j] - knownEta) * y;
+                }
             }
             if (meanDilatation) { // the mean stress works on the mean dilatation alone
                 const double dx = (slopeXi[0] + slopeXi[1] + slopeXi[2]) / 3;
@@ -964,7 +1049,7 @@ void ExplicitStep<Shape, phases>::mapCellToNodes(State& state, int c)
         for (const int* i = first; i != last; ++i) {
             const int p = *i;
             Shape::evaluate(cell, points.r[p], points.z[p], values);
-            addInertiaAndWeight(p);
+            addInertiaAndWeight(p, 0, 0);
             const double v = points.volume[p];
             double stress[4];
             for (int j = 0; j < 4; ++j) {
@@ -1039,7 +1124,13 @@ void ExplicitStep<Shape, phases>::addPointLoads(const State& state, int c)
             continue;
         }
         const std::array<double, 2> force = pointLoad(points, p);
-        Shape::evaluate(cells_[c], points.r[p], points.z[p], values);
+        // At the surface, which moves away from the point as the point grows. Shape functions of the point's
+        // own cell, beyond its side where need be, have the moments of the force.
+        const double first =
+            points.mass[p] / density_[points.material[p]] / (axisymmetric ? points.initialR[p] : 1.0);
+        const double stretch = std::sqrt(points.volume[p] / (axisymmetric ? points.r[p] : 1.0) / first);
+        Shape::evaluate(cells_[c], points.r[p] + stretch * points.loadReachR[p],
+                        points.z[p] + stretch * points.loadReachZ[p], values);
         for (int k = 0; k < corners; ++k) {
             cornerSums_[c * corners + k].forceR += values.N[k] * force[0];
             cornerSums_[c * corners + k].forceZ += values.N[k] * force[1];
@@ -1081,8 +1172,8 @@ void ExplicitStep<Shape, phases>::addBodyForce(const State& state, int c)
     Values values;
     for (const int* i = pointCells_.begin(c); i != pointCells_.end(c); ++i) {
         const int p = *i;
-        const double mass = fullness_[c] * points.mass[p];
-        Shape::evaluate(cells_[c], points.r[p], points.z[p], values);
+        const auto [x, y] = Shape::evaluate(cells_[c], points.r[p], points.z[p], values);
+        const double mass = fullness_[c] * points.mass[p] * (fit_.empty() ? 1.0 : fit_[c].at(x, y));
         for (int k = 0; k < corners; ++k) {
             cornerSums_[c * corners + k].forceR += values.N[k] * mass * bodyForceR_[p];
             cornerSums_[c * corners + k].forceZ += values.N[k] * mass * bodyForceZ_[p];
@@ -1412,8 +1503,8 @@ void ExplicitStep<Shape, phases>::mapCellToPoints(State& state, double dt, int c
                 liquidRate = liquidGradient[0];
             }
             if constexpr (corners == 4) {
-                centreXi = pointCentre_[c][0];
-                centreEta = pointCentre_[c][1];
+                centreXi = fits(c) ? Shape::moments(cell).xiCentre : pointCentre_[c][0];
+                centreEta = fits(c) ? 0 : pointCentre_[c][1];
             }
         } else if (meanDilatation) { // the same mean over the points as in the forces
             double volume = 0;
@@ -1599,8 +1690,9 @@ void ExplicitStep<Shape, phases>::addRemappedMomentum(const State& state, int c)
     Values values;
     for (const int* i = pointCells_.begin(c); i != pointCells_.end(c); ++i) {
         const int p = *i;
-        Shape::evaluate(cells_[c], points.r[p], points.z[p], values);
+        const auto [x, y] = Shape::evaluate(cells_[c], points.r[p], points.z[p], values);
         const double m = inertiaScale_[c] * fullness_[c] * points.mass[p] *
+                         (fit_.empty() ? 1.0 : fit_[c].at(x, y)) *
                          (twoPhase ? solidShare_[points.material[p]] : 1.0);
         for (int k = 0; k < corners; ++k) {
             out[k].momentumR += values.N[k] * m * points.vr[p];

@@ -62,6 +62,9 @@ struct SolutionControls
     /// their velocity to the nodes, taken from the velocities that strains are taken from. Unstable with a
     /// share of FLIP, and where soil yields beside a free surface.
     bool affine = false;
+    /// One phase, quadrilaterals: points of filled cells away from partly filled ones weigh as their places
+    /// ask for, so that their centre is that of the cell, and stress and strain are those of these places.
+    bool fittedWeights = false;
     double picTime = 0;                ///< time over which velocities relax to the PIC ones [s]; 0: never
     double localDamping = 0;           ///< share of the out-of-balance force [-]
     double linearBulkViscosity = 0;    ///< [-]
@@ -84,7 +87,7 @@ struct SolutionControls
     [[nodiscard]] bool mayHaveFemCells() const
     {
         return femCells == FemCells::automatic && integration == Integration::mixed &&
-               locking != Locking::none && remap != Remap::all && !affine;
+               locking != Locking::none && remap != Remap::all && !affine && !fittedWeights;
     }
 };
 
