@@ -47,5 +47,5 @@ for run in runs:
 S = np.linspace(0.6, 1.4, 300)
 axes.plot(S, turn(S, 0.25), "k-", linewidth=0.8, label="exact")
 v.save(figure, axes)
-v.report("vortex: displacement", runs, errors, target={16: 0.075, 32: 0.02}.get(v.cells(runs[-1]), 7e-3),
+v.report("vortex: displacement", runs, errors, target={16: 0.075, 32: 0.02}.get(v.cells(runs[-1]), 5e-3),
          least_order=1.7)
