@@ -390,16 +390,16 @@ void Expressions::evaluate(std::span<const double* const> variables, int count,
         const int items = uniform_[next] != 0 ? 1 : count;
         ++next;
         // Numbers and uniform operands have the stride 0.
-        const auto read = [&](const Operand& operand, const double*& from) {
+        const auto read = [&](const Operand& operand, const double*& from) -> std::ptrdiff_t {
             from = operand.reg < 0 ? &operand.number : row(operand.reg);
             return operand.reg < 0 || uniform_[operand.reg] != 0 ? 0 : 1;
         };
         const double* a = nullptr;
         const double* b = nullptr;
         const double* c = nullptr;
-        const int da = read(operation.a, a);
-        const int db = read(operation.b, b);
-        const int dc = read(operation.c, c);
+        const std::ptrdiff_t da = read(operation.a, a);
+        const std::ptrdiff_t db = read(operation.b, b);
+        const std::ptrdiff_t dc = read(operation.c, c);
         switch (operation.code) {
         case Code::add:
             for (int i = 0; i < items; ++i) {
@@ -441,7 +441,7 @@ void Expressions::evaluate(std::span<const double* const> variables, int count,
     for (std::size_t k = 0; k < results_.size(); ++k) {
         const Operand& result = results_[k];
         const double* const from = result.reg < 0 ? &result.number : row(result.reg);
-        const int step = result.reg < 0 || uniform_[result.reg] != 0 ? 0 : 1;
+        const std::ptrdiff_t step = result.reg < 0 || uniform_[result.reg] != 0 ? 0 : 1;
         for (int i = 0; i < count; ++i) {
             results[k][i] = from[i * step];
         }

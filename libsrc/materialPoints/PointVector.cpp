@@ -65,7 +65,7 @@ PointVector readPointVector(const KeywordReader& reader, std::string_view what)
     }
     PointVector result;
     if (problems.all().size() == before) {
-        result.expressions_ = std::move(expressions);
+        result.expressions_ = std::make_shared<const Expressions>(std::move(expressions));
     }
     return result;
 }

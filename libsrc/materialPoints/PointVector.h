@@ -5,7 +5,7 @@
 #include "dictionary/KeywordReader.h"
 #include "materialPoints/MaterialPoints.h"
 
-#include <optional>
+#include <memory>
 
 namespace caisson {
 
@@ -20,7 +20,7 @@ public:
         std::vector<double> inputs, registers;
     };
 
-    [[nodiscard]] bool given() const { return expressions_.has_value(); }
+    [[nodiscard]] bool given() const { return expressions_ != nullptr; }
     [[nodiscard]] Workspace workspace() const;
 
     /// At points begin to end - 1. @param lead  [s] that places are ahead of those of the points, by velocity
@@ -29,7 +29,7 @@ public:
 
 private:
     friend PointVector readPointVector(const KeywordReader&, std::string_view);
-    std::optional<Expressions> expressions_;
+    std::shared_ptr<const Expressions> expressions_;
 };
 
 /// Keys of a vector, for reading and the user guide.

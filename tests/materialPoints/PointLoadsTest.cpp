@@ -96,10 +96,10 @@ TEST(PointLoads, wrongOnesAreNamed)
             static_cast<void>(readPointLoads(parseDictionary(text), geometry, problems));
         });
     };
-    EXPECT_EQ(
-        wrong("a { type presure; uniformValue 1; }").at(0),
-        "unknown word 'presure' for type of a load | did you mean 'pressure'?  valid types: expression force pressure "
-        "traction");
+    EXPECT_EQ(wrong("a { type presure; uniformValue 1; }").at(0),
+              "unknown word 'presure' for type of a load | did you mean 'pressure'?  valid types: expression "
+              "force pressure "
+              "traction");
     EXPECT_EQ(wrong("a { type pressure; direction (0 1 0); uniformValue 1; }").at(0),
               "the direction must lie in the plane of r and z | direction (1 0 0);");
     EXPECT_EQ(wrong("a { type pressure; direction (1 0 0); uniformValue 1; areaFollows yes; }",

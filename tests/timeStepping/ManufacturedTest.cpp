@@ -170,8 +170,8 @@ TEST(ManufacturedBulge, staysWithinTwoPercentAtLargeStrain)
     expectNear("bulge, A = 0.1, n = 32, 3T/4: error", late, 0, 2e-2);
 }
 
-// The quadrature of moved points is exact for linear functions with fitted weights: what remained falls as
-// well.
+// The quadrature of moved points is exact for linear functions with fitted weights: the error
+// is that at small strain.
 TEST(ManufacturedBulge, convergesAtLargeStrainWithFittedWeights)
 {
     std::array<double, 3> total{};

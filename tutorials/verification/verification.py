@@ -56,6 +56,7 @@ class Points:
         self.rr, self.rz, self.tt, self.zz = read_list(folder / "stress")[:, [0, 2, 3, 5]].T
         self.mass = read_list(folder / "mass")[:, 0]
         self.volume = read_list(folder / "volume")[:, 0]
+        self.id = read_list(folder / "id")[:, 0]
         if (folder / "porePressure").exists():
             self.wr, self.wz = read_list(folder / "liquidVelocity")[:, [0, 2]].T
             self.p = read_list(folder / "porePressure")[:, 0]
