@@ -25,8 +25,9 @@ double ExplicitStep<Shape, phases>::mayRest(const State& state, int c, double st
     const int* const last = pointCells_.end(c);
     double meshVz = 0;
     if (scene_.movingBody >= 0) {
+        const int corner = c * corners;
         meshVz = state.bodies[scene_.movingBody].velocity *
-                 scene_.motion.weight(scene_.referenceZ[cellNodes_[c * corners]]);
+                 scene_.motion.weight(scene_.referenceZ[cellNodes_[corner]]);
     }
     double lowR = points.vr[*first], highR = lowR;
     double lowZ = points.vz[*first], highZ = lowZ;
