@@ -84,6 +84,19 @@ def weighted_norm(weight, values):
     return np.sqrt(np.sum(weight * values**2) / np.sum(weight))
 
 
+def displacement_error(written, exact):
+    """Root of the squares of the errors over those of the displacements, over all points and times.
+
+    exact  displacement along r and z of the points of a time
+    """
+    error = norm = 0
+    for points in written:
+        r, z = exact(points)
+        error += np.sum(points.volume * ((points.r - points.R - r) ** 2 + (points.z - points.Z - z) ** 2))
+        norm += np.sum(points.volume * (r**2 + z**2))
+    return np.sqrt(error / norm)
+
+
 def report(quantity, runs, errors, target, least_order=None, last=True):
     """Prints the table, adds to runs/results.csv, and ends with status 1 where a target is missed.
 

@@ -22,22 +22,12 @@ def exact(points):
     return A * np.sin(W * points.time) * shape(points.R), 0
 
 
-def displacement_error(written):
-    """Root of the squares of the errors over those of the displacements, over all points and times."""
-    error = norm = 0
-    for points in written:
-        r, z = exact(points)
-        error += np.sum(points.volume * ((points.r - points.R - r) ** 2 + (points.z - points.Z - z) ** 2))
-        norm += np.sum(points.volume * (r**2 + z**2))
-    return np.sqrt(error / norm)
-
-
 runs = v.folders()
 figure, axes = v.picture("time [ms]", "displacement of the inner edge [mm]")
 errors = []
 for run in runs:
     written = v.written(run)
-    errors.append(displacement_error(written))
+    errors.append(v.displacement_error(written, exact))
     inner = [(p.time, (p.r - p.R)[p.R < p.R.min() + 1e-9].mean() / shape(p.R.min()) * shape(RI)) for p in written]
     axes.plot(*(1e3 * np.array(inner).T), ".", markersize=5, label=f"{v.cells(run)} cells")
 time = np.linspace(0, written[-1].time, 200)

@@ -22,16 +22,6 @@ def exact(points):
     return points.R * bulge(points, points.time), 0
 
 
-def displacement_error(written):
-    """Root of the squares of the errors over those of the displacements, over all points and times."""
-    error = norm = 0
-    for points in written:
-        r, z = exact(points)
-        error += np.sum(points.volume * ((points.r - points.R - r) ** 2 + (points.z - points.Z - z) ** 2))
-        norm += np.sum(points.volume * (r**2 + z**2))
-    return np.sqrt(error / norm)
-
-
 def hoop_error(written, h):
     """Largest error of the hoop stress within a cell of the axis, over the largest stress there.
 
@@ -52,9 +42,9 @@ figure, axes = v.picture("time [ms]", "displacement of the rim [mm]")
 errors, hoops, at_points = [], [], []
 for run in runs:
     written = v.written(run)
-    errors.append(displacement_error(written))
+    errors.append(v.displacement_error(written, exact))
     hoops.append(hoop_error(written, 1 / v.cells(run)))
-    at_points.append(displacement_error(v.written(run / "points" / run.name)))
+    at_points.append(v.displacement_error(v.written(run / "points" / run.name), exact))
     rim = np.argmin(np.hypot(written[0].R - 1, written[0].Z - 0.5))
     number = written[0].id[rim]
     moved = [(p.time, (p.r - p.R)[p.id == number][0] / p.R[p.id == number][0]) for p in written]

@@ -23,22 +23,12 @@ def exact(points):
     return S * np.cos(angle) - points.R, S * np.sin(angle) - points.Z
 
 
-def displacement_error(written):
-    """Root of the squares of the errors over those of the displacements, over all points and times."""
-    error = norm = 0
-    for points in written:
-        r, z = exact(points)
-        error += np.sum(points.volume * ((points.r - points.R - r) ** 2 + (points.z - points.Z - z) ** 2))
-        norm += np.sum(points.volume * (r**2 + z**2))
-    return np.sqrt(error / norm)
-
-
 runs = v.folders()
 figure, axes = v.picture("radius [m]", "turn at 0.25 s [rad]")
 errors = []
 for run in runs:
     written = v.written(run)
-    errors.append(displacement_error(written))
+    errors.append(v.displacement_error(written, exact))
     most = min(written, key=lambda points: abs(points.time - 0.25))
     S = np.hypot(most.R, most.Z)
     angle = np.arctan2(most.z, most.r) - np.arctan2(most.Z, most.R)
