@@ -228,8 +228,7 @@ void ExplicitStep<Shape, phases>::moveBoxVelocities(State& state, double dt, int
     requires hasBoxes
 {
     MaterialPoints& points = state.points;
-    const double flip = std::max(0.0, scene_.controls.flipShare -
-                                          (scene_.controls.picTime > 0 ? dt / scene_.controls.picTime : 0.0));
+    const double flip = scene_.controls.flipOf(dt);
     for (const int* i = pointCells_.begin(c); i != pointCells_.end(c); ++i) {
         const int p = *i;
         double changeR = 0, changeZ = 0, newR = 0, newZ = 0;

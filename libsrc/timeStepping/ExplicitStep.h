@@ -310,6 +310,9 @@ private:
     void addRemappedMomentum(const State& state, int c);
     void remapMomentum(const State& state, int c);
     [[nodiscard]] std::array<double, 2> affineVelocity(const State& state, int p, int corner) const;
+    void updateBatch(int material, int part, int begin, int end,
+                     const std::array<std::vector<double>, 4>& strain, const std::vector<double>& spin,
+                     std::array<std::vector<double>, 4>& stress, std::vector<std::vector<double>>& variables);
     void updateStress(State& state, bool resting);
     template <class Work>
     void inBlocks(int first, int last, int part, const Work& work) const;
@@ -317,6 +320,11 @@ private:
     [[nodiscard]] double mayRest(const State& state, int c, double step) const;
     [[nodiscard]] int chooseRest(const MaterialPoints& points, const std::vector<double>& mayRest) const;
     void chooseFemCells(const State& state);
+    /// Weight of the mixture per mass of the solid, over gravity.
+    [[nodiscard]] double weighing(int material) const
+    {
+        return gravityShare_[material] / (twoPhase ? solidShare_[material] : 1.0);
+    }
     void numberFemNodes();
     void sumInnerNodes();
     void mapFemCellsToNodes(const State& state);

@@ -1444,8 +1444,7 @@ void ExplicitStep<Shape, phases>::mapCellToPoints(State& state, double dt, int c
     const bool nodalAverage = scene_.controls.locking == SolutionControls::Locking::nodalAverage;
     const int* const first = pointCells_.begin(c);
     const int* const last = pointCells_.end(c);
-    const double flip = std::max(0.0, scene_.controls.flipShare -
-                                          (scene_.controls.picTime > 0 ? dt / scene_.controls.picTime : 0.0));
+    const double flip = scene_.controls.flipOf(dt);
 
     double vr[corners], vz[corners], dvr[corners], dvz[corners], pr[corners], pz[corners];
     for (int k = 0; k < corners; ++k) {
@@ -1897,30 +1896,41 @@ void ExplicitStep<Shape, phases>::inBlocks(int first, int last, int part, const 
     }
 }
 
+/// The law on the elements from `begin` to before `end` of arrays of points or cells.
+template <class Shape, int phases>
+void ExplicitStep<Shape, phases>::updateBatch(int material, int part, int begin, int end,
+                                              const std::array<std::vector<double>, 4>& strain,
+                                              const std::vector<double>& spin,
+                                              std::array<std::vector<double>, 4>& stress,
+                                              std::vector<std::vector<double>>& variables)
+{
+    StressBatch batch;
+    batch.size = end - begin;
+    for (int j = 0; j < 4; ++j) {
+        batch.strain[j] = strain[j].data() + begin;
+        batch.stress[j] = stress[j].data() + begin;
+    }
+    batch.spin = spin.data() + begin;
+    std::vector<double*>& pointers = statePointers_[part];
+    for (std::size_t k = 0; k < variables.size(); ++k) {
+        pointers[k] = variables[k].data() + begin;
+    }
+    batch.state = &pointers;
+    scene_.materials[material].law->update(batch);
+}
+
 /// Of the points in cells that rest, or of those in all others.
 template <class Shape, int phases>
 void ExplicitStep<Shape, phases>::updateStress(State& state, bool resting)
 {
     MaterialPoints& points = state.points;
     threads_.run([&](int part) {
-        std::vector<double*>& pointers = statePointers_[part];
         for (const PointCells::Run& run : pointCells_.runs()) {
             if (run.rests != resting) {
                 continue;
             }
             inBlocks(run.begin, run.end, part, [&](int begin, int end) {
-                StressBatch batch;
-                batch.size = end - begin;
-                for (int j = 0; j < 4; ++j) {
-                    batch.strain[j] = strain_[j].data() + begin;
-                    batch.stress[j] = points.stress[j].data() + begin;
-                }
-                batch.spin = spin_.data() + begin;
-                for (std::size_t k = 0; k < points.state.size(); ++k) {
-                    pointers[k] = points.state[k].data() + begin;
-                }
-                batch.state = &pointers;
-                scene_.materials[run.material].law->update(batch);
+                updateBatch(run.material, part, begin, end, strain_, spin_, points.stress, points.state);
             });
         }
     });

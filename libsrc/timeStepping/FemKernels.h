@@ -280,8 +280,7 @@ void ExplicitStep<Shape, phases>::sumInnerNodes()
             const int f = femCorners_.item[n] / corners;
             const int k = femCorners_.item[n] % corners;
             const FemCell& fem = femCells_[f];
-            const double weight =
-                fem.mass[k] * gravityShare_[fem.material] / (twoPhase ? solidShare_[fem.material] : 1.0);
+            const double weight = fem.mass[k] * weighing(fem.material);
             mass += inertiaScale_[fem.cell] * fem.mass[k];
             inner.weightR += weight * scene_.gravity[0];
             inner.weightZ += weight * scene_.gravity[1];
@@ -469,14 +468,13 @@ void ExplicitStep<Shape, phases>::mapFemEdgeToNodes(int f)
 {
     const FemCell& fem = femCells_[f];
     const int c = fem.cell;
-    const double weighing = gravityShare_[fem.material] / (twoPhase ? solidShare_[fem.material] : 1.0);
     const double inertia = inertiaScale_[c];
     for (int k = 0; k < corners; ++k) {
         const int i = cellNodes_[c * corners + k];
         const Node& node = nodes_[i];
         const FemForce& force = femForces_[static_cast<std::size_t>(f) * corners + k];
         const double mass = inertia * fem.mass[k];
-        const double weight = fem.mass[k] * weighing;
+        const double weight = fem.mass[k] * weighing(fem.material);
         cornerSums_[c * corners + k] = {mass,
                                         mass * node.vr,
                                         mass * node.vz,
@@ -520,8 +518,7 @@ void ExplicitStep<Shape, phases>::keepFemMomentum(int c)
 template <class Shape, int phases>
 void ExplicitStep<Shape, phases>::accumulateFemNodes(double dt)
 {
-    const SolutionControls& controls = scene_.controls;
-    femFlip_ *= std::max(0.0, controls.flipShare - (controls.picTime > 0 ? dt / controls.picTime : 0.0));
+    femFlip_ *= scene_.controls.flipOf(dt);
     femTime_ += dt;
     const bool first = femSteps_ == 0; // of inner nodes, too, which go on from here
     if (first) {
@@ -704,24 +701,12 @@ void ExplicitStep<Shape, phases>::updateFemCells(State& state, double dt)
         }
     }
     threads_.run([&](int part) {
-        std::vector<double*>& pointers = statePointers_[part];
         for (const PointCells::Run& run : femRuns_) {
             inBlocks(run.begin, run.end, part, [&](int begin, int end) {
                 for (int f = begin; f < end; f += Shape::lanes) {
                     strainFemCells(state, dt, f, std::min(Shape::lanes, end - f));
                 }
-                StressBatch batch;
-                batch.size = end - begin;
-                for (int j = 0; j < 4; ++j) {
-                    batch.strain[j] = fem_.strain[j].data() + begin;
-                    batch.stress[j] = fem_.stress[j].data() + begin;
-                }
-                batch.spin = fem_.spin.data() + begin;
-                for (std::size_t k = 0; k < fem_.state.size(); ++k) {
-                    pointers[k] = fem_.state[k].data() + begin;
-                }
-                batch.state = &pointers;
-                scene_.materials[run.material].law->update(batch);
+                updateBatch(run.material, part, begin, end, fem_.strain, fem_.spin, fem_.stress, fem_.state);
             });
         }
     });

@@ -10,6 +10,7 @@
 #include "materialPoints/PointVector.h"
 #include "mesh/MeshMotion.h"
 
+#include <algorithm>
 #include <limits>
 
 namespace caisson {
@@ -82,6 +83,12 @@ struct SolutionControls
     double checkerboardFilter = 0.2;
     int sortInterval = 50; ///< steps between physical sorts of the points; those of FEM cells rest between
     int threads = 0;       ///< 0: the processors, where there are points enough
+
+    /// Share of the FLIP velocity that a step leaves.
+    [[nodiscard]] double flipOf(double dt) const
+    {
+        return std::max(0.0, flipShare - (picTime > 0 ? dt / picTime : 0.0));
+    }
 
     /// Cells at rest have one dilatation and the velocities of their nodes.
     [[nodiscard]] bool mayHaveFemCells() const
