@@ -61,6 +61,17 @@ LiquidBoundary::LiquidBoundary(const BackgroundMesh& mesh, std::map<std::string,
     }
 }
 
+std::vector<int> LiquidBoundary::openNodes(const BackgroundMesh& mesh) const
+{
+    std::vector<int> result;
+    for (const auto& open : open_) {
+        for (const BoundaryEdge& edge : mesh.patches[open.first].edges) {
+            result.insert(result.end(), edge.node.begin(), edge.node.end());
+        }
+    }
+    return result;
+}
+
 void LiquidBoundary::addPressures(const BackgroundMesh& mesh, double time, double unitWeight,
                                   std::vector<std::array<double, 2>>& force) const
 {

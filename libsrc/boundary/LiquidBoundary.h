@@ -24,6 +24,8 @@ public:
     };
     [[nodiscard]] const std::vector<Node>& nodes() const { return nodes_; }
 
+    /// Nodes of the patches that give a pressure, each as often as it has edges there.
+    [[nodiscard]] std::vector<int> openNodes(const BackgroundMesh& mesh) const;
     /// Adds the forces on the mixture [N/rad or N/m] of the given pressures, less the hydrostatic part
     /// rho_w g_z z [Pa] at the place.
     void addPressures(const BackgroundMesh& mesh, double time, double unitWeight,

@@ -41,6 +41,39 @@ struct MaterialPoints
     void addLiquid();
     /// Physically reorders every array: new item i is old item order[i].
     void reorder(const std::vector<int>& order);
+    /// Calls change(array) for every array that these points have.
+    template <class Change>
+    void forEachArray(const Change& change)
+    {
+        for (std::vector<double>* array : {&r, &z, &vr, &vz, &mass, &volume, &initialR, &initialZ}) {
+            change(*array);
+        }
+        if (twoPhase()) {
+            for (std::vector<double>* array : {&wr, &wz, &porePressure}) {
+                change(*array);
+            }
+        }
+        if (affine()) {
+            for (std::vector<double>& component : gradient) {
+                change(component);
+            }
+        }
+        for (std::vector<double>& component : stress) {
+            change(component);
+        }
+        for (std::vector<double>& variable : state) {
+            change(variable);
+        }
+        for (std::vector<int>* array : {&cell, &material, &id}) {
+            change(*array);
+        }
+        if (loaded()) {
+            change(load);
+            for (std::vector<double>* array : {&loadArea, &loadReachR, &loadReachZ}) {
+                change(*array);
+            }
+        }
+    }
 };
 
 } // namespace caisson

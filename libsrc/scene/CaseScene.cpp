@@ -375,6 +375,11 @@ CaseScene readCaseScene(const std::filesystem::path& caseDirectory, const std::f
             }
         }
     }
+    if (scene.controls.passedPointsPerCell > 0 && scene.movingBody < 0) {
+        problems.add({"system/mpmSolution", 0},
+                     "passedPointsPerCell is of a mesh that follows a body, and this one does not",
+                     "leave passedPointsPerCell out; or constant/dynamicMeshDict: type followBody; ...");
+    }
     for (std::size_t b = 0; b < state.bodies.size(); ++b) {
         if (state.bodies[b].moves() && static_cast<int>(b) != scene.movingBody) {
             problems.add({"constant/bodies", 0},

@@ -68,9 +68,14 @@ constexpr Keyword keywords[] = {
     {"monitorInterval", "s", "0.005", "[0, inf)", "least time between two records in postProcessing"},
     {"sortInterval", "integer", "50", "[1, 100000]",
      "steps between two sorts of the points in memory, at most: FEM cells may need them sooner"},
+    {"passedPointsPerCell", "integer", "0", "[0, 1000]",
+     "points that a filled cell keeps where the tip of a body that the mesh follows down has passed it: more "
+     "are merged two by two, 8 or 9 will do. 0: any number"},
     {"threads", "integer", "0", "[0, 64]",
      "threads; 0 takes the processors, one for every 5,000 points at most. Results do not depend on it"},
 };
+
+constexpr int leastPassedPoints = 4;
 
 } // namespace
 
@@ -191,6 +196,14 @@ SolutionControls readSolutionControls(const Dictionary& mpmSolution, bool triang
     controls.inertiaGate = reader.number("inertiaGate");
     controls.energyGate = reader.number("energyGate");
     controls.sortInterval = static_cast<int>(reader.integer("sortInterval"));
+    controls.passedPointsPerCell = static_cast<int>(reader.integer("passedPointsPerCell"));
+    if (controls.passedPointsPerCell > 0 && controls.passedPointsPerCell < leastPassedPoints) {
+        reader.problem("passedPointsPerCell", "a cell of so few points has no slopes of stress",
+                       "passedPointsPerCell 9;  or 0, for any number");
+    } else if (controls.passedPointsPerCell > 0 &&
+               controls.integration == SolutionControls::Integration::points) {
+        reader.problem("passedPointsPerCell", "points are merged in filled cells", "integration mixed;");
+    }
     controls.threads = static_cast<int>(reader.integer("threads"));
     return controls;
 }

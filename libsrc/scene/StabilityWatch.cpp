@@ -132,6 +132,11 @@ void StabilityWatch::look(const Scene& scene, const State& state, const StableSt
     const bool pores = points.twoPhase();
     // Waves of soil with scaled inertia are slower.
     const double limit = std::min(stable.waveSpeed, stable.size / stable.step);
+    std::vector<double> grainVolume; // per mass, by material
+    grainVolume.reserve(scene.materials.size());
+    for (const Material& soil : scene.materials) {
+        grainVolume.push_back(pores ? (1 - soil.porosity) / soil.inertialDensity() : 0.0);
+    }
     std::size_t fastest = 0;
     double square = -1;
     for (std::size_t p = 0; p < points.size(); ++p) {
@@ -139,8 +144,8 @@ void StabilityWatch::look(const Scene& scene, const State& state, const StableSt
         if (pores) {
             own = std::max(own, points.wr[p] * points.wr[p] + points.wz[p] * points.wz[p]);
         }
-        const bool sound = std::isfinite(sumOfQuantities(points, p)) && points.volume[p] > 0 &&
-                           (!pores || porosity(scene, points, p) > 0);
+        const double pore = points.volume[p] - points.mass[p] * grainVolume[points.material[p]];
+        const bool sound = std::isfinite(sumOfQuantities(points, p)) && pore > 0;
         if (!sound || own > square) {
             fastest = p;
             square = own;

@@ -270,13 +270,14 @@ struct Rectangle
     }
 
     /// Local coordinates in [-1, 1].
-    static std::array<double, 2> local(const Cell& cell, double r, double z)
+    [[gnu::always_inline]] static std::array<double, 2> local(const Cell& cell, double r, double z)
     {
         return {2 * (r - cell.r0) * cell.invDr - 1, 2 * (z - cell.z0) * cell.invDz - 1};
     }
 
     /// @returns the local coordinates
-    static std::array<double, 2> evaluate(const Cell& cell, double r, double z, Values<4>& values)
+    [[gnu::always_inline]] static std::array<double, 2> evaluate(const Cell& cell, double r, double z,
+                                                                 Values<4>& values)
     {
         const double x = (r - cell.r0) * cell.invDr;
         const double y = (z - cell.z0) * cell.invDz;
@@ -393,7 +394,8 @@ struct Rectangle
         g[2][3] = g[1][0];
         g[2][4] = c.twoR * b3;
     }
-    static void velocityGradient(const Cell& c, const double* vr, const double* vz, VelocityGradient<4>& g)
+    [[gnu::always_inline]] static void velocityGradient(const Cell& c, const double* vr, const double* vz,
+                                                        VelocityGradient<4>& g)
     {
         velocityGradient(integrals(c), vr, vz, g);
     }
@@ -425,7 +427,8 @@ struct Rectangle
              c.twoZ * (c.xiCentre * s[0][1] + c.inertiaXi * s[1][1]) + c.twoR * s[2][3] * (1.0 / 3)},
             forceZ);
     }
-    static void addForces(const Cell& c, const StressField<4>& s, double* forceR, double* forceZ)
+    [[gnu::always_inline]] static void addForces(const Cell& c, const StressField<4>& s, double* forceR,
+                                                 double* forceZ)
     {
         addForces(integrals(c), s, forceR, forceZ);
     }

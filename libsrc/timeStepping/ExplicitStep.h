@@ -58,7 +58,11 @@ private:
     static constexpr bool axisymmetric = Shape::isAxisymmetric;
     static constexpr bool twoPhase = phases == 2;
     static constexpr bool hasBoxes = Shape::corners == 4 && !twoPhase;
-    static constexpr int filterInterval = 10; ///< steps between two uses of the checkerboard filter
+    // Pieces of work that a thread takes at a time
+    static constexpr int cellsPerPiece = 16;
+    static constexpr int nodesPerPiece = 128;
+    static constexpr int pointsPerPiece = 256; ///< or FEM cells
+    static constexpr int filterInterval = 10;  ///< steps between two uses of the checkerboard filter
     using Values = shapes::Values<corners>;
     using Dilatation = shapes::MeanDilatation<corners>;
 
@@ -198,34 +202,49 @@ private:
             liquidShare; ///< drag: not times the step; share: of the mass
     };
 
+    /// Cells or nodes in the order of work, and where the part of each thread begins, and the last one ends.
+    /// Parts of cells and of nodes are neighbours, loop after loop: what one thread has written must not
+    /// come out of the cache of another.
+    struct WorkList
+    {
+        std::vector<int> items, part;
+    };
+
     /// work(cell) for all active cells, or work(node) for all active nodes, on all threads.
     template <class Work>
     void forCells(const Work& work) const
     {
-        threads_.run([&](int part) {
-            for (int i = cellPart_[part]; i < cellPart_[part + 1]; ++i) {
-                work(activeCells_[i]);
+        forItemsOf(active_, work);
+    }
+    /// For those with points that move and the FEM cells beside them.
+    template <class Work>
+    void forAwakeCells(const Work& work) const
+    {
+        forItemsOf(awake_, work);
+    }
+    template <class Work>
+    void forItemsOf(const WorkList& list, const Work& work) const
+    {
+        threads_.share(list.part, cellsPerPiece, [&](int, int begin, int end) {
+            for (int i = begin; i < end; ++i) {
+                work(list.items[i]);
             }
         });
     }
     template <class Work>
     void forNodes(const Work& work) const
     {
-        forNodesOf(activeNodes_, work);
-    }
-    template <class Work>
-    void forNodesOf(const std::vector<int>& nodes, const Work& work) const
-    {
-        const int count = static_cast<int>(nodes.size());
-        threads_.run([&](int part) {
-            for (int i = threads_.first(count, part); i < threads_.first(count, part + 1); ++i) {
-                work(nodes[i]);
+        threads_.share(static_cast<int>(activeNodes_.size()), nodesPerPiece, [&](int, int begin, int end) {
+            for (int i = begin; i < end; ++i) {
+                work(activeNodes_[i]);
             }
         });
     }
 
     void updateCells(const State& state);
     void divideCells();
+    void divide(WorkList& list) const;
+    void findOuterNodes();
     void classifyCells(State& state);
     void moveBodies(State& state, double dt);
     void meanPressures(const State& state, std::vector<double>& cellPressure) const;
@@ -310,12 +329,12 @@ private:
     void addRemappedMomentum(const State& state, int c);
     void remapMomentum(const State& state, int c);
     [[nodiscard]] std::array<double, 2> affineVelocity(const State& state, int p, int corner) const;
-    void updateBatch(int material, int part, int begin, int end,
+    void updateBatch(int material, int thread, int begin, int end,
                      const std::array<std::vector<double>, 4>& strain, const std::vector<double>& spin,
                      std::array<std::vector<double>, 4>& stress, std::vector<std::vector<double>>& variables);
     void updateStress(State& state, bool resting);
     template <class Work>
-    void inBlocks(int first, int last, int part, const Work& work) const;
+    void inBlocks(std::span<const PointCells::Run> runs, const Work& work) const;
     [[nodiscard]] bool resting(int c) const { return !femOf_.empty() && femOf_[c] >= 0; }
     [[nodiscard]] double mayRest(const State& state, int c, double step) const;
     [[nodiscard]] int chooseRest(const MaterialPoints& points, const std::vector<double>& mayRest) const;
@@ -325,6 +344,7 @@ private:
     {
         return gravityShare_[material] / (twoPhase ? solidShare_[material] : 1.0);
     }
+    void wakeBesideBodies();
     void numberFemNodes();
     void sumInnerNodes();
     void mapFemCellsToNodes(const State& state);
@@ -341,13 +361,14 @@ private:
     void updateFemCells(State& state, double dt);
     void accumulateFemNodes(double dt);
     void returnInnerMotion();
-    void findOuterNodes();
     [[nodiscard]] StableStep femStep(const State& state) const;
     void wakeFemCells(State& state);
     void wakeFemCell(State& state, int c);
     void moveBodiesAndMesh(State& state, double dt);
     void relocate(State& state, bool sorts);
     void sortPoints(State& state);
+    void mergePassedPoints(State& state);
+    void mergePointsOf(State& state, int c);
     [[nodiscard]] int cellOfMoved(State& state, int p, int c) const;
     void scaleInertia(const State& state);
     [[nodiscard]] double waveStep(const State& state, int c) const;
@@ -357,8 +378,7 @@ private:
 
     const Scene& scene_;
     mutable Threads threads_;
-    mutable std::vector<StableStep> shortest_; ///< per thread
-    std::vector<int> cellPart_;                ///< first active cell of each thread, and one past the last
+    mutable std::vector<StableStep> shortest_;           ///< per thread
     std::vector<std::vector<PointCells::Mover>> movers_; ///< per thread
     std::vector<std::vector<double*>> statePointers_;    ///< per thread
     std::vector<int> cellNodes_;                         ///< corners in the order that Shape wants
@@ -392,7 +412,9 @@ private:
     std::vector<unsigned char> bySurface_;   ///< per cell: has a surface node
     std::vector<unsigned char> looseNode_;   ///< on a surface, or with a mass well below that of full cells
     std::vector<unsigned char> byLoose_;     ///< per cell: has a loose node
-    std::vector<int> activeCells_, activeNodes_;
+    WorkList active_, awake_;
+    std::vector<int> activeNodes_;
+    std::vector<int> emptyCells_; ///< and those of bodies
     std::vector<unsigned char> activeNode_;
     bool occupancyChanged_ = true;
     int stepsToSort_ = 0; ///< never where it is not positive
@@ -418,6 +440,8 @@ private:
     bool pumped_ = false;                          ///< a free surface has a given flow
     std::vector<std::array<double, 2>> voidForce_; ///< per corner, of a unit pressure in the void; with pumps
     std::vector<double> givenPressure_;            ///< per node: excess pressure of a boundary, or NaN
+    std::vector<int> openNodes_;                   ///< on patches that give a pressure
+    std::vector<int> voidNodes_;                   ///< of voidCells_ in the last step
     std::vector<double> pressureShape_;            ///< per point: pressure interpolated from the nodes
     mutable std::vector<double> cellPressure_, cellAverage_; ///< of the filter
     std::vector<double> cellLiquidRate_;                     ///< as cellRate_, for the liquid
@@ -459,7 +483,7 @@ private:
     typename Shape::FrozenCells femShapes_;   ///< of the FEM cells, when the points came to rest
     std::vector<unsigned char> innerNode_;    ///< per node
     std::vector<unsigned char> boundaryNode_; ///< per node: on the boundary of the mesh
-    std::vector<int> outerNodes_;             ///< active nodes that are no inner ones
+    WorkList outerNodes_;                     ///< active nodes that are no inner ones
     mutable StableStep femStep_{};            ///< that FEM cells allow; 0 where not known
     std::vector<PointCells::Run> femRuns_;    ///< FEM cells of one material
     FemFields fem_;

@@ -1,12 +1,14 @@
 #pragma once
 
 #include "dictionary/Text.h"
+#include "materialPoints/PointMerging.h"
 #include "timeStepping/ExplicitStep.h"
 #include "timeStepping/MassScaling.h"
 
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <numeric>
 
 namespace caisson {
 
@@ -86,8 +88,8 @@ inline double fastWave(const Material& material)
 template <class Shape, int phases>
 ExplicitStep<Shape, phases>::ExplicitStep(const Scene& scene, State& state)
     : scene_(scene), threads_(threadsFor(scene.controls.threads, state.points.size())),
-      shortest_(threads_.count()), cellPart_(threads_.count() + 1), movers_(threads_.count()),
-      statePointers_(threads_.count()), locator_(state.mesh)
+      shortest_(threads_.count()), movers_(threads_.count()), statePointers_(threads_.count()),
+      locator_(state.mesh)
 {
     const BackgroundMesh& mesh = state.mesh;
     const int cells = mesh.cells();
@@ -211,7 +213,8 @@ ExplicitStep<Shape, phases>::ExplicitStep(const Scene& scene, State& state)
         liquidCorners_.resize(cells * corners);
         liquidNodes_.resize(mesh.nodes());
         wallArea_.resize(mesh.nodes());
-        givenPressure_.resize(mesh.nodes());
+        givenPressure_.assign(mesh.nodes(), std::numeric_limits<double>::quiet_NaN());
+        openNodes_ = scene.liquidBoundary.openNodes(mesh);
         waterLoad_.resize(mesh.nodes());
         cellLiquidRate_.assign(cells, 0);
         pressureShape_.resize(state.points.size());
@@ -258,6 +261,9 @@ ExplicitStep<Shape, phases>::ExplicitStep(const Scene& scene, State& state)
     for (auto& pointers : statePointers_) {
         pointers.resize(state.points.state.size());
     }
+    emptyCells_.resize(cells); // as yet
+    std::iota(emptyCells_.begin(), emptyCells_.end(), 0);
+    divideCells();
     updateCells(state);
     findBoxCells(mesh);
     boxes_.resize(boxCell_.empty() ? 0 : state.points.size());
@@ -275,7 +281,8 @@ void ExplicitStep<Shape, phases>::rebuild(State& state)
     rests_.clear();
     pressureSolver_.forget();
     pressureStep_.setZero();
-    pointCells_.sort(state.points, state.mesh.cells());
+    pointCells_.index(state.points, state.mesh.cells());
+    pointCells_.sort(state.points, threads_);
     occupancyChanged_ = true;
     classifyCells(state);
     scaleInertia(state);
@@ -287,56 +294,164 @@ template <class Shape, int phases>
 void ExplicitStep<Shape, phases>::sortPoints(State& state)
 {
     stepsToSort_ = scene_.controls.sortInterval;
+    mergePassedPoints(state);
     chooseFemCells(state);
-    pointCells_.sort(state.points, state.mesh.cells(), rests_);
+    pointCells_.sort(state.points, threads_, rests_);
     divideCells();
+}
+
+/// Where a mesh follows a tip on its way down, soil that has passed its fine rows comes into larger cells,
+/// and has more points there than they need.
+template <class Shape, int phases>
+void ExplicitStep<Shape, phases>::mergePassedPoints(State& state)
+{
+    const int most = scene_.controls.passedPointsPerCell;
+    if (most == 0 || scene_.movingBody < 0 || state.bodies[scene_.movingBody].velocity >= 0) {
+        return;
+    }
+    const double tip = state.bodies[scene_.movingBody].tipLevel;
+    forCells([&](int c) {
+        if (pointCells_.count(c) <= most || !state.filled[c]) {
+            return;
+        }
+        for (int k = 0; k < corners; ++k) {
+            if (state.mesh.z[cellNodes_[c * corners + k]] < tip) {
+                return;
+            }
+        }
+        mergePointsOf(state, c);
+    });
+}
+
+template <class Shape, int phases>
+void ExplicitStep<Shape, phases>::mergePointsOf(State& state, int c)
+{
+    MaterialPoints& points = state.points;
+    const std::size_t most = scene_.controls.passedPointsPerCell;
+    const auto range = [&](const std::vector<double>& ofNodes) {
+        double low = ofNodes[cellNodes_[c * corners]];
+        double high = low;
+        for (int k = 1; k < corners; ++k) {
+            low = std::min(low, ofNodes[cellNodes_[c * corners + k]]);
+            high = std::max(high, ofNodes[cellNodes_[c * corners + k]]);
+        }
+        return high - low;
+    };
+    const double width = range(state.mesh.r);
+    const double height = range(state.mesh.z);
+    std::vector<int> members(pointCells_.begin(c), pointCells_.end(c));
+    const auto isLoaded = [&](int p) { return points.loaded() && points.load[p] >= 0; };
+    while (members.size() > most) {
+        double least = std::numeric_limits<double>::max();
+        std::size_t stays = 0, goes = 0;
+        for (std::size_t i = 0; i < members.size(); ++i) {
+            for (std::size_t j = i + 1; j < members.size(); ++j) {
+                const int one = members[i], other = members[j];
+                if (points.material[one] != points.material[other] || isLoaded(one) || isLoaded(other)) {
+                    continue;
+                }
+                const double cost = mergingCost(points, one, other, width, height);
+                if (cost < least) {
+                    least = cost;
+                    stays = i;
+                    goes = j;
+                }
+            }
+        }
+        if (stays == goes) { // none that may
+            return;
+        }
+        std::array<double, 2> poreVolume{};
+        if constexpr (twoPhase) {
+            for (const auto& [p, own] : {std::pair{members[stays], 0}, std::pair{members[goes], 1}}) {
+                poreVolume[own] = porosity(points, p) * points.volume[p];
+            }
+        }
+        mergePoints(points, members[stays], members[goes], poreVolume);
+        pointCells_.remove(members[goes], c);
+        members.erase(members.begin() + static_cast<std::ptrdiff_t>(goes));
+    }
 }
 
 template <class Shape, int phases>
 void ExplicitStep<Shape, phases>::updateCells(const State& state)
 {
-    const int cells = state.mesh.cells();
-    threads_.run([&](int part) {
+    const auto update = [&](int c) {
+        if (resting(c)) {
+            return;
+        }
         double r[corners];
         double z[corners];
-        for (int c = threads_.first(cells, part); c < threads_.first(cells, part + 1); ++c) {
-            if (resting(c)) {
-                continue;
+        for (int k = 0; k < corners; ++k) {
+            r[k] = state.mesh.r[cellNodes_[c * corners + k]];
+            z[k] = state.mesh.z[cellNodes_[c * corners + k]];
+        }
+        if constexpr (requires { Shape::isAt(cells_[c], r, z); }) {
+            if (Shape::isAt(cells_[c], r, z)) {
+                return;
             }
-            for (int k = 0; k < corners; ++k) {
-                r[k] = state.mesh.r[cellNodes_[c * corners + k]];
-                z[k] = state.mesh.z[cellNodes_[c * corners + k]];
-            }
-            if constexpr (requires { Shape::isAt(cells_[c], r, z); }) {
-                if (Shape::isAt(cells_[c], r, z)) {
-                    continue;
-                }
-            }
-            cells_[c] = Shape::make(r, z);
-            dilatation_[c] = Shape::meanDilatation(cells_[c]);
+        }
+        cells_[c] = Shape::make(r, z);
+        dilatation_[c] = Shape::meanDilatation(cells_[c]);
+    };
+    forAwakeCells(update);
+    threads_.share(static_cast<int>(emptyCells_.size()), pointsPerPiece, [&](int, int begin, int end) {
+        for (int i = begin; i < end; ++i) {
+            update(emptyCells_[i]);
         }
     });
 }
 
-/// Active cells of all parts, with about as many points in each.
 template <class Shape, int phases>
 void ExplicitStep<Shape, phases>::divideCells()
 {
+    awake_.items.clear();
+    std::ranges::copy_if(active_.items, std::back_inserter(awake_.items),
+                         [this](int c) { return !resting(c) || !femCells_[femOf_[c]].inner; });
+    divide(active_);
+    divide(awake_);
+    findOuterNodes();
+}
+
+/// Those of the cells that are awake, in the order of the cells; inner nodes only while cells rest.
+template <class Shape, int phases>
+void ExplicitStep<Shape, phases>::findOuterNodes()
+{
+    outerNodes_.items.clear();
+    outerNodes_.part.assign(1, 0);
+    std::vector<unsigned char> found(nodes_.size(), 0);
+    for (int part = 0; part < threads_.count(); ++part) {
+        for (int j = awake_.part[part]; j < awake_.part[part + 1]; ++j) {
+            for (int k = 0; k < corners; ++k) {
+                const int i = cellNodes_[awake_.items[j] * corners + k];
+                if (!found[i] && (innerNode_.empty() || innerNode_[i] == 0)) {
+                    found[i] = 1;
+                    outerNodes_.items.push_back(i);
+                }
+            }
+        }
+        outerNodes_.part.push_back(static_cast<int>(outerNodes_.items.size()));
+    }
+}
+
+/// Parts with about as many points in each.
+template <class Shape, int phases>
+void ExplicitStep<Shape, phases>::divide(WorkList& list) const
+{
+    const auto cost = [this](int c) { return 1 + (resting(c) ? 0 : pointCells_.count(c)); };
     long long total = 0;
-    for (const int c : activeCells_) {
-        total += resting(c) ? 0 : pointCells_.count(c) + 1;
+    for (const int c : list.items) {
+        total += cost(c);
     }
     const int threads = threads_.count();
+    list.part.assign(threads + 1, static_cast<int>(list.items.size()));
     long long sum = 0;
-    int part = 1;
-    for (std::size_t i = 0; i < activeCells_.size(); ++i) {
+    int part = 0;
+    for (int i = 0; i < static_cast<int>(list.items.size()); ++i) {
         for (; part < threads && sum * threads >= total * part; ++part) {
-            cellPart_[part] = static_cast<int>(i);
+            list.part[part] = i;
         }
-        sum += resting(activeCells_[i]) ? 0 : pointCells_.count(activeCells_[i]) + 1;
-    }
-    for (; part <= threads; ++part) {
-        cellPart_[part] = static_cast<int>(activeCells_.size());
+        sum += cost(list.items[i]);
     }
 }
 
@@ -348,11 +463,11 @@ void ExplicitStep<Shape, phases>::classifyCells(State& state)
     if (occupancyChanged_) {
         occupancyChanged_ = false;
         occupied_.assign(cells, 0);
-        activeCells_.clear();
+        active_.items.clear();
         for (int c = 0; c < cells; ++c) {
             if (pointCells_.count(c) > 0) {
                 occupied_[c] = 1;
-                activeCells_.push_back(c);
+                active_.items.push_back(c);
             }
         }
         surfaceNode_.assign(state.mesh.nodes(), 0);
@@ -365,11 +480,17 @@ void ExplicitStep<Shape, phases>::classifyCells(State& state)
         }
         bySurface_.assign(cells, 0);
         activeNode_.assign(state.mesh.nodes(), 0);
-        for (const int c : activeCells_) {
+        for (const int c : active_.items) {
             for (int k = 0; k < corners; ++k) {
                 const int i = cellNodes_[c * corners + k];
                 bySurface_[c] |= surfaceNode_[i];
                 activeNode_[i] = 1;
+            }
+        }
+        emptyCells_.clear();
+        for (int c = 0; c < cells; ++c) {
+            if (!occupied_[c]) {
+                emptyCells_.push_back(c);
             }
         }
         activeNodes_.clear();
@@ -381,11 +502,11 @@ void ExplicitStep<Shape, phases>::classifyCells(State& state)
         if constexpr (twoPhase) {
             voidCells_.clear();
             for (int c = 0; c < cells; ++c) {
-                bool active_ = false;
+                bool beside = false;
                 for (int k = 0; k < corners; ++k) {
-                    active_ = active_ || activeNode_[cellNodes_[c * corners + k]];
+                    beside = beside || activeNode_[cellNodes_[c * corners + k]];
                 }
-                if (active_ && !occupied_[c] && !inside_[c] && freeSurface_[c] >= 0) {
+                if (beside && !occupied_[c] && !inside_[c] && freeSurface_[c] >= 0) {
                     voidCells_.push_back(c);
                 }
             }
@@ -407,10 +528,9 @@ void ExplicitStep<Shape, phases>::classifyCells(State& state)
     }
     if (sorted) {
         divideCells();
-        findOuterNodes();
     }
     const bool mixed = scene_.controls.integration == SolutionControls::Integration::mixed;
-    forCells([&](int c) {
+    forAwakeCells([&](int c) {
         if (resting(c)) {
             return;
         }
@@ -437,7 +557,7 @@ template <class Shape, int phases>
 void ExplicitStep<Shape, phases>::findPartialNodes(const State& state)
 {
     std::ranges::fill(partialNode_, 0);
-    for (const int c : activeCells_) {
+    for (const int c : active_.items) {
         for (int k = 0; !state.filled[c] && k < corners; ++k) {
             partialNode_[cellNodes_[c * corners + k]] = 1;
         }
@@ -523,7 +643,7 @@ void ExplicitStep<Shape, phases>::scaleInertia(const State& state)
         return;
     }
     double smallest = std::numeric_limits<double>::max();
-    for (const int c : activeCells_) {
+    for (const int c : active_.items) {
         smallest = std::min(smallest, waveStep(state, c));
     }
     const double common = smallest * std::sqrt(state.massScaling);
@@ -571,21 +691,25 @@ StableStep ExplicitStep<Shape, phases>::stableStep(const State& state) const
     // Linear bulk viscosity b shortens the step by sqrt(1 + b^2) - b.
     const double b = scene_.controls.linearBulkViscosity;
     const double viscous = std::sqrt(1 + b * b) - b;
-    threads_.run([&](int part) {
-        StableStep& least = shortest_[part];
-        least.step = std::numeric_limits<double>::max();
-        for (int i = cellPart_[part]; i < cellPart_[part + 1]; ++i) {
-            const int c = activeCells_[i];
+    const auto less = [](const StableStep& one, const StableStep& other) {
+        return one.step < other.step || (one.step == other.step && one.cell < other.cell);
+    };
+    for (StableStep& least : shortest_) {
+        least = {std::numeric_limits<double>::max(), 0, 0, 0};
+    }
+    threads_.share(awake_.part, pointsPerPiece, [&](int thread, int begin, int end) {
+        StableStep& least = shortest_[thread];
+        for (int i = begin; i < end; ++i) {
+            const int c = awake_.items[i];
             if (resting(c)) {
                 continue;
             }
             const double step = cellStep(state, c);
-            if (step < least.step) {
+            if (less({step, c, 0, 0}, least)) {
                 least = {step, c, 0, 0};
             }
         }
     });
-    const auto less = [](const StableStep& one, const StableStep& other) { return one.step < other.step; };
     StableStep result = *std::ranges::min_element(shortest_, less);
     if (!femCells_.empty()) {
         result = std::min(result, femStep(state), less);
@@ -1146,21 +1270,18 @@ void ExplicitStep<Shape, phases>::evaluateExpressions(const State& state, double
     const MaterialPoints& points = state.points;
     const double time = state.time + 0.5 * dt;
     const double lead = 0.5 * dt;
-    threads_.run([&](int part) {
-        inBlocks(0, static_cast<int>(points.size()), part, [&](int begin, int end) {
-            if (scene_.bodyForce.given()) {
-                scene_.bodyForce.evaluate(points, begin, end, time, lead, bodyForceR_.data() + begin,
-                                          bodyForceZ_.data() + begin, bodyForceRoom_[part]);
+    threads_.share(static_cast<int>(points.size()), pointsPerPiece, [&](int thread, int begin, int end) {
+        if (scene_.bodyForce.given()) {
+            scene_.bodyForce.evaluate(points, begin, end, time, lead, bodyForceR_.data() + begin,
+                                      bodyForceZ_.data() + begin, bodyForceRoom_[thread]);
+        }
+        for (int p = begin; p < end && !expressionR_.empty(); ++p) {
+            const int load = points.load[p];
+            if (load >= 0 && scene_.pointLoads[load].expression.given()) {
+                scene_.pointLoads[load].expression.evaluate(points, p, p + 1, time, lead, &expressionR_[p],
+                                                            &expressionZ_[p], expressionRoom_[thread][load]);
             }
-            for (int p = begin; p < end && !expressionR_.empty(); ++p) {
-                const int load = points.load[p];
-                if (load >= 0 && scene_.pointLoads[load].expression.given()) {
-                    scene_.pointLoads[load].expression.evaluate(points, p, p + 1, time, lead,
-                                                                &expressionR_[p], &expressionZ_[p],
-                                                                expressionRoom_[part][load]);
-                }
-            }
-        });
+        }
     });
 }
 
@@ -1206,7 +1327,7 @@ void ExplicitStep<Shape, phases>::mapToNodes(State& state)
     if (asElements) {
         mapFemCellsToNodes(state);
     }
-    forCells([&](int c) {
+    forItemsOf(asElements ? awake_ : active_, [&](int c) {
         if (asElements && resting(c)) {
             return;
         }
@@ -1255,7 +1376,7 @@ void ExplicitStep<Shape, phases>::solveNodes(State& state, double dt)
     const double damping = scene_.controls.localDamping;
     const bool tractions = scene_.conditions.hasTractions();
     const bool seepage = !twoPhase && !seepage_.empty();
-    forNodesOf(femSteps_ > 0 ? outerNodes_ : activeNodes_, [&](int i) {
+    const auto solve = [&](int i) {
         Corner sum = gatherSolid(i);
         Node& node = nodes_[i];
         node.mass = sum.mass;
@@ -1293,7 +1414,12 @@ void ExplicitStep<Shape, phases>::solveNodes(State& state, double dt)
         node.vz = oldZ + node.dvz;
         node.placeVr = oldR + 0.5 * node.dvr;
         node.placeVz = oldZ + 0.5 * node.dvz;
-    });
+    };
+    if (femSteps_ > 0 || femCells_.empty()) {
+        forItemsOf(outerNodes_, solve);
+    } else { // the inner ones begin as the others
+        forNodes(solve);
+    }
     if constexpr (twoPhase) { // a held direction wins over a body's, in velocity and drag
         applyContact(state, dt, false);
         applyConditions(state.time + dt, false);
@@ -1799,7 +1925,7 @@ void ExplicitStep<Shape, phases>::mapToPoints(State& state, double dt)
     };
     const auto remaps = [&](int c) { return remapAll || (remapSome && byLoose_[c]); };
 
-    forCells([&](int c) {
+    forAwakeCells([&](int c) {
         if (remapSome) {
             byLoose_[c] = 0;
             for (int k = 0; k < corners; ++k) {
@@ -1862,7 +1988,7 @@ void ExplicitStep<Shape, phases>::mapToPoints(State& state, double dt)
         }
         averageDilatationAtNodes();
     }
-    forCells([&](int c) {
+    forAwakeCells([&](int c) {
         if (resting(c)) {
             return;
         }
@@ -1880,25 +2006,35 @@ void ExplicitStep<Shape, phases>::mapToPoints(State& state, double dt)
     });
 }
 
-/// work(begin, end) for this thread's part of what lies from `first` on to before `last`. Loops that the
-/// compiler makes work on vectors round what is left over in another way: parts that start at a multiple of
-/// any vector's length give the bits of the whole.
+/// work(thread, material, begin, end) for blocks of runs, on all threads.
 template <class Shape, int phases>
 template <class Work>
-void ExplicitStep<Shape, phases>::inBlocks(int first, int last, int part, const Work& work) const
+void ExplicitStep<Shape, phases>::inBlocks(std::span<const PointCells::Run> runs, const Work& work) const
 {
-    constexpr int block = 256;
-    const int blocks = (last - first + block - 1) / block;
-    const int begin = first + block * threads_.first(blocks, part);
-    const int end = std::min(last, first + block * threads_.first(blocks, part + 1));
-    if (end > begin) {
-        work(begin, end);
+    const auto blocksOf = [](const PointCells::Run& run) {
+        return (run.end - run.begin + pointsPerPiece - 1) / pointsPerPiece;
+    };
+    int blocks = 0;
+    for (const PointCells::Run& run : runs) {
+        blocks += blocksOf(run);
     }
+    threads_.share(blocks, 1, [&](int thread, int first, int last) {
+        for (const PointCells::Run& run : runs) {
+            const int own = blocksOf(run);
+            const int begin = run.begin + pointsPerPiece * std::max(first, 0);
+            const int end = std::min(run.end, run.begin + pointsPerPiece * std::min(last, own));
+            if (begin < end) {
+                work(thread, run.material, begin, end);
+            }
+            first -= own;
+            last -= own;
+        }
+    });
 }
 
 /// The law on the elements from `begin` to before `end` of arrays of points or cells.
 template <class Shape, int phases>
-void ExplicitStep<Shape, phases>::updateBatch(int material, int part, int begin, int end,
+void ExplicitStep<Shape, phases>::updateBatch(int material, int thread, int begin, int end,
                                               const std::array<std::vector<double>, 4>& strain,
                                               const std::vector<double>& spin,
                                               std::array<std::vector<double>, 4>& stress,
@@ -1911,7 +2047,7 @@ void ExplicitStep<Shape, phases>::updateBatch(int material, int part, int begin,
         batch.stress[j] = stress[j].data() + begin;
     }
     batch.spin = spin.data() + begin;
-    std::vector<double*>& pointers = statePointers_[part];
+    std::vector<double*>& pointers = statePointers_[thread];
     for (std::size_t k = 0; k < variables.size(); ++k) {
         pointers[k] = variables[k].data() + begin;
     }
@@ -1924,15 +2060,8 @@ template <class Shape, int phases>
 void ExplicitStep<Shape, phases>::updateStress(State& state, bool resting)
 {
     MaterialPoints& points = state.points;
-    threads_.run([&](int part) {
-        for (const PointCells::Run& run : pointCells_.runs()) {
-            if (run.rests != resting) {
-                continue;
-            }
-            inBlocks(run.begin, run.end, part, [&](int begin, int end) {
-                updateBatch(run.material, part, begin, end, strain_, spin_, points.stress, points.state);
-            });
-        }
+    inBlocks(pointCells_.runs(resting), [&](int thread, int material, int begin, int end) {
+        updateBatch(material, thread, begin, end, strain_, spin_, points.stress, points.state);
     });
 }
 
@@ -1953,10 +2082,12 @@ template <class Shape, int phases>
 void ExplicitStep<Shape, phases>::relocate(State& state, bool sorts)
 {
     MaterialPoints& points = state.points;
-    threads_.run([&](int part) {
-        movers_[part].clear();
-        for (int j = cellPart_[part]; j < cellPart_[part + 1]; ++j) {
-            const int c = activeCells_[j];
+    for (std::vector<PointCells::Mover>& movers : movers_) {
+        movers.clear();
+    }
+    threads_.share(awake_.part, cellsPerPiece, [&](int thread, int begin, int end) {
+        for (int j = begin; j < end; ++j) {
+            const int c = awake_.items[j];
             if (resting(c)) {
                 continue;
             }
@@ -1967,7 +2098,7 @@ void ExplicitStep<Shape, phases>::relocate(State& state, bool sorts)
                 const int found = cellOfMoved(state, *i, c);
                 if (found != c && !resting(found)) { // a cell at rest takes nobody in
                     points.cell[*i] = found;
-                    movers_[part].push_back({*i, c});
+                    movers_[thread].push_back({*i, c});
                 }
             }
         }

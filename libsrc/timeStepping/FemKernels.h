@@ -61,7 +61,7 @@ int ExplicitStep<Shape, phases>::chooseRest(const MaterialPoints& points,
     double least = std::numeric_limits<double>::max();
     for (int steps = longest; steps > 0 && steps >= longest / 8; steps /= 2) {
         double cost = costOfSort * static_cast<double>(points.size()) / steps;
-        for (const int c : activeCells_) {
+        for (const int c : active_.items) {
             if (rests_[c] && mayRest[c] < steps) {
                 cost += pointCells_.count(c);
             }
@@ -103,39 +103,20 @@ void ExplicitStep<Shape, phases>::chooseFemCells(const State& state)
     femCells_.clear();
     const std::vector<unsigned char> restedBefore = rests_;
     rests_.assign(cells_.size(), 0);
-    std::vector<unsigned char> near(nodes_.size());
-    for (std::size_t i = 0; i < nodes_.size(); ++i) {
-        near[i] = contactNode_[i] != 0 || surfaceNode_[i] != 0;
-    }
     const double step = stableStep(state).step;
     std::vector<double> steps(cells_.size());
-    for (const int c : activeCells_) {
+    forCells([&](int c) {
         steps[c] = state.filled[c] != 0 ? mayRest(state, c, step) : 0;
         rests_[c] = steps[c] > 0;
-    }
-    for (int ring = 0; ring < std::max(1, controls.femDistance); ++ring) {
-        const std::vector<unsigned char> before = near;
-        for (const int c : activeCells_) {
-            bool touches = false;
-            for (int k = 0; k < corners; ++k) {
-                touches = touches || before[cellNodes_[c * corners + k]] != 0;
-            }
-            for (int k = 0; touches && k < corners; ++k) {
-                near[cellNodes_[c * corners + k]] = 1;
-            }
-            rests_[c] = rests_[c] != 0 && !touches;
-        }
-    }
+    });
+    wakeBesideBodies();
     // Nodes of partly filled cells may be loose.
-    std::ranges::fill(near, 0);
-    for (const int c : activeCells_) {
+    for (const int c : active_.items) {
         for (int k = 0; !state.filled[c] && k < corners; ++k) {
-            near[cellNodes_[c * corners + k]] = 1;
-        }
-    }
-    for (const int c : activeCells_) {
-        for (int k = 0; k < corners; ++k) {
-            rests_[c] = rests_[c] != 0 && near[cellNodes_[c * corners + k]] == 0;
+            const int i = cellNodes_[c * corners + k];
+            for (int j = nodeCorners_.start[i]; j < nodeCorners_.start[i + 1]; ++j) {
+                rests_[nodeCorners_.item[j] / corners] = 0;
+            }
         }
     }
     if (!controls.femZone.empty()) {
@@ -146,14 +127,16 @@ void ExplicitStep<Shape, phases>::chooseFemCells(const State& state)
         rests_ = ofZone;
     }
     stepsToSort_ = chooseRest(points, steps);
-    for (const int c : activeCells_) {
+    for (const int c : active_.items) {
         rests_[c] = rests_[c] != 0 && steps[c] >= stepsToSort_;
     }
 
     std::vector<int> chosen;
-    std::ranges::copy_if(activeCells_, std::back_inserter(chosen), [&](int c) { return rests_[c] != 0; });
+    std::ranges::copy_if(active_.items, std::back_inserter(chosen), [&](int c) { return rests_[c] != 0; });
     const auto material = [&](int c) { return points.material[*pointCells_.begin(c)]; };
-    std::ranges::stable_sort(chosen, {}, material);
+    if (scene_.materials.size() > 1) {
+        std::ranges::stable_sort(chosen, {}, material);
+    }
     femCells_.assign(chosen.size(), {});
     femLiquidCells_.assign(twoPhase ? chosen.size() : 0, {});
     femRuns_.clear();
@@ -170,21 +153,53 @@ void ExplicitStep<Shape, phases>::chooseFemCells(const State& state)
     }
     fem_.state.resize(points.state.size());
     fem_.resize(chosen.size());
-    for (std::size_t k = 0; k < fem_.state.size(); ++k) {
-        for (std::size_t f = 0; f < chosen.size(); ++f) {
-            double sum = 0;
-            for (const int* p = pointCells_.begin(chosen[f]); p != pointCells_.end(chosen[f]); ++p) {
-                sum += points.state[k][*p];
-            }
-            fem_.state[k][f] = sum / pointCells_.count(chosen[f]);
-        }
-    }
     femShapes_.resize(chosen.size());
-    for (std::size_t f = 0; f < chosen.size(); ++f) {
-        femShapes_.set(static_cast<int>(f), cells_[chosen[f]]);
-    }
+    threads_.share(static_cast<int>(chosen.size()), pointsPerPiece, [&](int, int begin, int end) {
+        for (int f = begin; f < end; ++f) {
+            femShapes_.set(f, cells_[chosen[f]]);
+            for (std::size_t k = 0; k < fem_.state.size(); ++k) {
+                double sum = 0;
+                for (const int* p = pointCells_.begin(chosen[f]); p != pointCells_.end(chosen[f]); ++p) {
+                    sum += points.state[k][*p];
+                }
+                fem_.state[k][f] = sum / pointCells_.count(chosen[f]);
+            }
+        }
+    });
     femForces_.resize(chosen.size() * corners);
     numberFemNodes();
+}
+
+/// No cell rests that is nearer to a body or a free surface than femDistance.
+template <class Shape, int phases>
+void ExplicitStep<Shape, phases>::wakeBesideBodies()
+{
+    std::vector<unsigned char> near(nodes_.size());
+    std::vector<int> front;
+    for (int i = 0; i < static_cast<int>(nodes_.size()); ++i) {
+        near[i] = contactNode_[i] != 0 || surfaceNode_[i] != 0;
+        if (near[i]) {
+            front.push_back(i);
+        }
+    }
+    std::vector<int> next;
+    for (int ring = 0; ring < std::max(1, scene_.controls.femDistance); ++ring) {
+        next.clear();
+        for (const int i : front) {
+            for (int j = nodeCorners_.start[i]; j < nodeCorners_.start[i + 1]; ++j) {
+                const int c = nodeCorners_.item[j] / corners;
+                rests_[c] = 0;
+                for (int k = 0; occupied_[c] && k < corners; ++k) {
+                    const int node = cellNodes_[c * corners + k];
+                    if (!near[node]) {
+                        near[node] = 1;
+                        next.push_back(node);
+                    }
+                }
+            }
+        }
+        front.swap(next);
+    }
 }
 
 /// Lists the nodes of the cells at rest, the inner ones first, and what meets at these.
@@ -255,25 +270,13 @@ void ExplicitStep<Shape, phases>::numberFemNodes()
     femInner_.resize(innerNodes_);
     femInnerOld_ = true;
     femStep_.step = 0;
-    findOuterNodes();
-}
-
-template <class Shape, int phases>
-void ExplicitStep<Shape, phases>::findOuterNodes()
-{
-    outerNodes_.clear();
-    for (const int i : activeNodes_) {
-        if (innerNode_.empty() || innerNode_[i] == 0) {
-            outerNodes_.push_back(i);
-        }
-    }
 }
 
 template <class Shape, int phases>
 void ExplicitStep<Shape, phases>::sumInnerNodes()
 {
     femInnerOld_ = false;
-    for (int j = 0; j < innerNodes_; ++j) {
+    const auto sum = [this](int j) {
         FemInner inner{};
         double mass = 0, liquidMass = 0, volume = 0, poreVolume = 0;
         for (int n = femCorners_.start[j]; n < femCorners_.start[j + 1]; ++n) {
@@ -299,7 +302,12 @@ void ExplicitStep<Shape, phases>::sumInnerNodes()
             inner.liquidShare = liquidMass / (mass + liquidMass);
         }
         femInner_[j] = inner;
-    }
+    };
+    threads_.share(innerNodes_, nodesPerPiece, [&](int, int begin, int end) {
+        for (int j = begin; j < end; ++j) {
+            sum(j);
+        }
+    });
 }
 
 /// The inner nodes: what solveNodes and accumulateFemNodes do elsewhere, in one go.
@@ -357,12 +365,12 @@ void ExplicitStep<Shape, phases>::solveInnerNodes(double dt)
         return std::max(std::abs(history.strainR), std::abs(history.strainZ)) > history.mayMove;
     };
     std::ranges::fill(restless_, 0);
-    threads_.run([&](int part) {
+    threads_.share(innerNodes_, nodesPerPiece, [&](int thread, int begin, int end) {
         bool restless = false;
-        for (int j = threads_.first(innerNodes_, part); j < threads_.first(innerNodes_, part + 1); ++j) {
+        for (int j = begin; j < end; ++j) {
             restless = solve(j) || restless;
         }
-        restless_[part] = restless;
+        restless_[thread] |= restless ? 1 : 0;
     });
 }
 
@@ -447,18 +455,15 @@ void ExplicitStep<Shape, phases>::mapFemCellsToNodes(const State& state)
     if (femInnerOld_) {
         sumInnerNodes();
     }
-    const int count = static_cast<int>(femCells_.size());
-    threads_.run([&](int part) {
-        inBlocks(0, count, part, [&](int begin, int end) {
-            for (int f = begin; f < end; f += lanes) {
-                addFemForces<shapes::Lanes<lanes>>(state, f, std::min(lanes, end - f));
+    inBlocks(femRuns_, [&](int, int, int begin, int end) {
+        for (int f = begin; f < end; f += lanes) {
+            addFemForces<shapes::Lanes<lanes>>(state, f, std::min(lanes, end - f));
+        }
+        for (int f = begin; f < end; ++f) {
+            if (!femCells_[f].inner) {
+                mapFemEdgeToNodes(f);
             }
-            for (int f = begin; f < end; ++f) {
-                if (!femCells_[f].inner) {
-                    mapFemEdgeToNodes(f);
-                }
-            }
-        });
+        }
     });
 }
 
@@ -550,9 +555,9 @@ void ExplicitStep<Shape, phases>::accumulateFemNodes(double dt)
     };
     const int begin = first ? 0 : innerNodes_;
     const int count = static_cast<int>(femNodes_.size()) - begin;
-    threads_.run([&](int part) {
-        for (int j = threads_.first(count, part); j < threads_.first(count, part + 1); ++j) {
-            restless_[part] |= accumulate(begin + j) ? 1 : 0;
+    threads_.share(count, nodesPerPiece, [&](int thread, int from, int to) {
+        for (int j = from; j < to; ++j) {
+            restless_[thread] |= accumulate(begin + j) ? 1 : 0;
         }
     });
 }
@@ -561,16 +566,18 @@ void ExplicitStep<Shape, phases>::accumulateFemNodes(double dt)
 template <class Shape, int phases>
 void ExplicitStep<Shape, phases>::returnInnerMotion()
 {
-    for (int j = 0; j < innerNodes_; ++j) {
-        const FemMotion& motion = femMotion_[j];
-        Node& node = nodes_[femNodes_[j].node];
-        node.vr = motion[0];
-        node.vz = motion[1];
-        if constexpr (twoPhase) {
-            liquidNodes_[femNodes_[j].node].relativeVr = motion[2];
-            liquidNodes_[femNodes_[j].node].relativeVz = motion[3];
+    threads_.share(innerNodes_, nodesPerPiece, [&](int, int begin, int end) {
+        for (int j = begin; j < end; ++j) {
+            const FemMotion& motion = femMotion_[j];
+            Node& node = nodes_[femNodes_[j].node];
+            node.vr = motion[0];
+            node.vz = motion[1];
+            if constexpr (twoPhase) {
+                liquidNodes_[femNodes_[j].node].relativeVr = motion[2];
+                liquidNodes_[femNodes_[j].node].relativeVz = motion[3];
+            }
         }
-    }
+    });
 }
 
 /// Share of the elastic stiffness in shear that the mean of a cell showed in the step before: 1 where it is
@@ -691,24 +698,23 @@ void ExplicitStep<Shape, phases>::strainFemCells(State& state, double dt, int f,
 template <class Shape, int phases>
 void ExplicitStep<Shape, phases>::updateFemCells(State& state, double dt)
 {
-    for (std::size_t j = femSteps_ == 0 ? 0 : innerNodes_; j < femNodes_.size(); ++j) {
-        const Node& node = nodes_[femNodes_[j].node];
-        if constexpr (twoPhase) {
-            const LiquidNode& liquid = liquidNodes_[femNodes_[j].node];
-            femMotion_[j] = {node.vr, node.vz, liquid.relativeVr, liquid.relativeVz};
-        } else {
-            femMotion_[j] = {node.vr, node.vz};
+    const int first = femSteps_ == 0 ? 0 : innerNodes_;
+    threads_.share(static_cast<int>(femNodes_.size()) - first, nodesPerPiece, [&](int, int begin, int end) {
+        for (int j = first + begin; j < first + end; ++j) {
+            const Node& node = nodes_[femNodes_[j].node];
+            if constexpr (twoPhase) {
+                const LiquidNode& liquid = liquidNodes_[femNodes_[j].node];
+                femMotion_[j] = {node.vr, node.vz, liquid.relativeVr, liquid.relativeVz};
+            } else {
+                femMotion_[j] = {node.vr, node.vz};
+            }
         }
-    }
-    threads_.run([&](int part) {
-        for (const PointCells::Run& run : femRuns_) {
-            inBlocks(run.begin, run.end, part, [&](int begin, int end) {
-                for (int f = begin; f < end; f += Shape::lanes) {
-                    strainFemCells(state, dt, f, std::min(Shape::lanes, end - f));
-                }
-                updateBatch(run.material, part, begin, end, fem_.strain, fem_.spin, fem_.stress, fem_.state);
-            });
+    });
+    inBlocks(femRuns_, [&](int thread, int material, int begin, int end) {
+        for (int f = begin; f < end; f += Shape::lanes) {
+            strainFemCells(state, dt, f, std::min(Shape::lanes, end - f));
         }
+        updateBatch(material, thread, begin, end, fem_.strain, fem_.spin, fem_.stress, fem_.state);
     });
     ++femSteps_;
 }
@@ -723,7 +729,7 @@ void ExplicitStep<Shape, phases>::wakeFemCells(State& state)
     if (femSteps_ > 1) {
         returnInnerMotion();
         const double step = femTime_ / static_cast<double>(femSteps_);
-        for (int j = 0; j < innerNodes_; ++j) { // what the others have summed
+        const auto sum = [&](int j) { // what the others have summed
             FemNode& fem = femNodes_[j];
             const FemMotion& start = femStart_[j];
             const FemMotion& motion = femMotion_[j];
@@ -743,7 +749,12 @@ void ExplicitStep<Shape, phases>::wakeFemCells(State& state)
                 }
                 liquidNodes_[fem.node].pressure = pressureVolume / volume;
             }
-        }
+        };
+        threads_.share(innerNodes_, nodesPerPiece, [&](int, int begin, int end) {
+            for (int j = begin; j < end; ++j) {
+                sum(j);
+            }
+        });
     }
     forCells([&](int c) {
         if (resting(c)) {
@@ -754,7 +765,7 @@ void ExplicitStep<Shape, phases>::wakeFemCells(State& state)
     std::ranges::fill(femOf_, -1);
     femCells_.clear();
     std::ranges::fill(innerNode_, 0);
-    findOuterNodes();
+    divideCells();
     femSteps_ = 0;
     femTime_ = 0;
     femFlip_ = 1;

@@ -30,15 +30,20 @@ template <class Shape, int phases>
 void ExplicitStep<Shape, phases>::prepareLiquid(const State& state)
 {
     updateWallAreas(state);
-    if (scene_.liquidBoundary.hasPressures()) {
-        std::ranges::fill(waterLoad_, std::array<double, 2>{});
-        scene_.liquidBoundary.addPressures(state.mesh, state.time, unitWeight_, waterLoad_);
+    for (const int i : openNodes_) {
+        waterLoad_[i] = {};
     }
-    std::ranges::fill(givenPressure_, std::numeric_limits<double>::quiet_NaN());
+    scene_.liquidBoundary.addPressures(state.mesh, state.time, unitWeight_, waterLoad_);
+    for (const int i : voidNodes_) {
+        givenPressure_[i] = std::numeric_limits<double>::quiet_NaN();
+    }
+    voidNodes_.clear();
     scene_.liquidBoundary.setPressures(state.mesh, state.time, unitWeight_, givenPressure_);
     for (const int c : voidCells_) {
         for (int k = 0; k < corners; ++k) {
-            givenPressure_[cellNodes_[c * corners + k]] = surfacePressure_[freeSurface_[c]];
+            const int i = cellNodes_[c * corners + k];
+            givenPressure_[i] = surfacePressure_[freeSurface_[c]];
+            voidNodes_.push_back(i);
         }
     }
 }
@@ -237,7 +242,7 @@ void ExplicitStep<Shape, phases>::pump(State& state, double dt)
                 inflow -= whole * (force[0] * r + force[1] * z);
             }
         };
-        for (const int c : activeCells_) {
+        for (const int c : active_.items) {
             if (bySurface_[c]) {
                 add(c);
             }
@@ -540,7 +545,7 @@ double ExplicitStep<Shape, phases>::checkerboardIndex(const State& state) const
     meanPressures(state, cellPressure_);
     averageOverNodes(cellPressure_, cellAverage_);
     double volume = 0, mean = 0, square = 0, difference = 0;
-    for (const int c : activeCells_) {
+    for (const int c : active_.items) {
         const double v = dilatation_[c].volume;
         volume += v;
         mean += v * cellPressure_[c];

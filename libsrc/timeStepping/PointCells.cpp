@@ -1,37 +1,82 @@
 #include "timeStepping/PointCells.h"
 
 #include <algorithm>
+#include <numeric>
 
 namespace caisson {
 
-void PointCells::sort(MaterialPoints& points, int cells, std::span<const unsigned char> rests)
+void PointCells::sort(MaterialPoints& points, Threads& threads, std::span<const unsigned char> rests)
 {
-    index(points, cells);
-    std::vector<int> order;
-    order.reserve(points.size());
-    for (const bool resting : {false, true}) {
-        for (int c = 0; c < cells; ++c) {
-            if (resting != (!rests.empty() && rests[c] != 0)) {
-                continue;
+    constexpr int cellsPerPiece = 128;
+    places_.clear();
+    int first = 0;
+    int resting = 0; // the first point in a cell that rests
+    for (const bool wanted : {false, true}) {
+        resting = first;
+        for (int c = 0; c < cells(); ++c) {
+            if (count(c) > 0 && wanted == (!rests.empty() && rests[c] != 0)) {
+                places_.push_back({c, first});
+                first += count(c);
             }
-            order.insert(order.end(), begin(c), end(c));
-            std::sort(order.end() - count(c), order.end(),
-                      [&points](int a, int b) { return points.id[a] < points.id[b]; });
         }
     }
-    points.reorder(order);
-    findRuns(points, rests);
-    index(points, cells);
+    order_.resize(first);
+    threads.share(static_cast<int>(places_.size()), cellsPerPiece, [&](int, int from, int to) {
+        for (int i = from; i < to; ++i) {
+            const auto [c, at] = places_[i];
+            std::copy(begin(c), end(c), order_.begin() + at);
+            std::sort(order_.begin() + at, order_.begin() + at + count(c),
+                      [&points](int a, int b) { return points.id[a] < points.id[b]; });
+        }
+    });
+    reorder(points, threads);
+    findRuns(points, resting);
+    for (Slot& slot : slots_) {
+        slot.room = slot.count;
+    }
+    makeRoom();
+    for (const auto& [c, at] : places_) {
+        std::iota(index_.begin() + slots_[c].start, index_.begin() + slots_[c].start + count(c), at);
+    }
 }
 
-void PointCells::index(const MaterialPoints& points, int cells)
+/// Every array at once, each by one thread.
+void PointCells::reorder(MaterialPoints& points, Threads& threads)
+{
+    std::vector<std::vector<double>*> numbers;
+    std::vector<std::vector<int>*> labels;
+    points.forEachArray([&](auto& array) {
+        if constexpr (std::is_same_v<decltype(array), std::vector<int>&>) {
+            labels.push_back(&array);
+        } else {
+            numbers.push_back(&array);
+        }
+    });
+    numbers_.resize(threads.count());
+    labels_.resize(threads.count());
+    const auto pick = [this](auto& array, auto& scratch) {
+        scratch.resize(order_.size());
+        for (std::size_t i = 0; i < order_.size(); ++i) {
+            scratch[i] = array[order_[i]];
+        }
+        array.swap(scratch);
+    };
+    const int some = static_cast<int>(numbers.size());
+    threads.share(some + static_cast<int>(labels.size()), 1, [&](int thread, int from, int to) {
+        for (int i = from; i < to; ++i) {
+            if (i < some) {
+                pick(*numbers[i], numbers_[thread]);
+            } else {
+                pick(*labels[i - some], labels_[thread]);
+            }
+        }
+    });
+}
+
+/// Places the slots one after the other, each with some points more than its room.
+void PointCells::makeRoom()
 {
     constexpr int spare = 4; // points that may come before all is indexed again
-    const int n = static_cast<int>(points.size());
-    slots_.assign(cells, {});
-    for (int p = 0; p < n; ++p) {
-        ++slots_[points.cell[p]].room;
-    }
     int start = 0;
     for (Slot& slot : slots_) {
         slot.room += spare;
@@ -39,7 +84,16 @@ void PointCells::index(const MaterialPoints& points, int cells)
         start += slot.room;
     }
     index_.resize(start);
-    for (int p = 0; p < n; ++p) {
+}
+
+void PointCells::index(const MaterialPoints& points, int cells)
+{
+    slots_.assign(cells, {});
+    for (const int c : points.cell) {
+        ++slots_[c].room;
+    }
+    makeRoom();
+    for (int p = 0; p < static_cast<int>(points.size()); ++p) {
         Slot& slot = slots_[points.cell[p]];
         index_[slot.start + slot.count++] = p;
     }
@@ -53,11 +107,7 @@ void PointCells::move(const MaterialPoints& points, std::span<const Mover> mover
             index(points, cells());
             return;
         }
-        Slot& from = slots_[mover.from];
-        int* const old = std::lower_bound(index_.data() + from.start, index_.data() + from.start + from.count,
-                                          mover.point);
-        std::copy(old + 1, index_.data() + from.start + from.count, old);
-        --from.count;
+        remove(mover.point, mover.from);
         int* const last = index_.data() + to.start + to.count;
         int* const place = std::lower_bound(index_.data() + to.start, last, mover.point);
         std::copy_backward(place, last, last + 1);
@@ -66,13 +116,23 @@ void PointCells::move(const MaterialPoints& points, std::span<const Mover> mover
     }
 }
 
-void PointCells::findRuns(const MaterialPoints& points, std::span<const unsigned char> rests)
+void PointCells::remove(int point, int cell)
+{
+    Slot& slot = slots_[cell];
+    int* const last = index_.data() + slot.start + slot.count;
+    int* const place = std::lower_bound(index_.data() + slot.start, last, point);
+    std::copy(place + 1, last, place);
+    --slot.count;
+}
+
+void PointCells::findRuns(const MaterialPoints& points, int resting)
 {
     runs_.clear();
+    awakeRuns_ = 0;
     for (int p = 0; p < static_cast<int>(points.size()); ++p) {
-        const bool resting = !rests.empty() && rests[points.cell[p]] != 0;
-        if (runs_.empty() || runs_.back().material != points.material[p] || runs_.back().rests != resting) {
-            runs_.push_back({points.material[p], resting, p, p});
+        if (runs_.empty() || p == resting || runs_.back().material != points.material[p]) {
+            runs_.push_back({points.material[p], p >= resting, p, p});
+            awakeRuns_ += p < resting ? 1 : 0;
         }
         runs_.back().end = p + 1;
     }

@@ -82,7 +82,8 @@ struct SolutionControls
     /// O(h^4).
     double checkerboardFilter = 0.2;
     int sortInterval = 50; ///< steps between physical sorts of the points; those of FEM cells rest between
-    int threads = 0;       ///< 0: the processors, where there are points enough
+    int passedPointsPerCell = 0; ///< at most, where the tip of the moving body has passed; 0: any number
+    int threads = 0;             ///< 0: the processors, where there are points enough
 
     /// Share of the FLIP velocity that a step leaves.
     [[nodiscard]] double flipOf(double dt) const

@@ -1,6 +1,5 @@
 #include "timeStepping/Threads.h"
 
-#include <algorithm>
 #include <utility>
 
 namespace caisson {
@@ -24,7 +23,7 @@ void waitWhile(const std::atomic<int>& value, int old)
 
 } // namespace
 
-Threads::Threads(int count)
+Threads::Threads(int count) : cursors_(count), bounds_(count + 1)
 {
     failures_.resize(count);
     for (int part = 1; part < count; ++part) {
@@ -71,15 +70,14 @@ void Threads::lap(bool counts)
         return;
     }
     const auto now = std::chrono::steady_clock::now();
-    if (counts) {
+    if (counts && ++laps_ > settlingLaps) {
         window_ += std::chrono::duration<double>(now - lapped_).count();
-        ++laps_;
     }
     lapped_ = now;
-    if (laps_ < wanted_) {
+    if (laps_ < settlingLaps + wanted_) {
         return;
     }
-    const double time = window_ / laps_;
+    const double time = window_ / wanted_;
     window_ = 0;
     laps_ = 0;
     if (!probes_) { // look at the other way for a moment
@@ -90,10 +88,13 @@ void Threads::lap(bool counts)
         return;
     }
     probes_ = false;
-    wanted_ = trustedLaps;
     if (time > 0.9 * kept_) {
         alone_ = !alone_;
+        trusted_ = std::min(2 * trusted_, mostTrusted);
+    } else {
+        trusted_ = leastTrusted;
     }
+    wanted_ = trusted_;
 }
 
 void Threads::serve(int part)

@@ -1,9 +1,11 @@
 #pragma once
 
+#include <algorithm>
 #include <atomic>
 #include <chrono>
 #include <cstddef>
 #include <exception>
+#include <span>
 #include <thread>
 #include <vector>
 
@@ -38,21 +40,67 @@ public:
         finish();
     }
 
-    /// Ends a round of loops that is like the one before, or (not `counts`) one that is not. From the time
-    /// that they take all threads work, or the first alone, whichever is the faster: looked at every some
-    /// hundred rounds.
-    void lap(bool counts);
-
-    /// First of `items` that belongs to a part; those of part p end where those of p + 1 begin.
-    [[nodiscard]] int first(int items, int part) const
+    /// Runs work(thread, begin, end) for pieces of `items`, that of the first part from bounds[0] to before
+    /// bounds[1] and so on. A thread takes pieces of its own part, which lie in its cache from the loop
+    /// before, and then of what others have not come to. Pieces begin at multiples of `piece` in their part.
+    template <class Work>
+    void share(std::span<const int> bounds, int piece, const Work& work)
     {
-        return static_cast<int>(static_cast<long long>(items) * part / count());
+        if (workers_.empty() || alone_) {
+            for (int part = 0; part < count(); ++part) {
+                if (bounds[part] < bounds[part + 1]) {
+                    work(0, bounds[part], bounds[part + 1]);
+                }
+            }
+            return;
+        }
+        for (int part = 0; part < count(); ++part) {
+            cursors_[part].next.store(bounds[part], std::memory_order_relaxed);
+        }
+        run([&](int thread) {
+            for (int turn = 0; turn < count(); ++turn) {
+                const int part = (thread + turn) % count();
+                const int end = bounds[part + 1];
+                std::atomic<int>& next = cursors_[part].next;
+                for (int begin = next.fetch_add(piece, std::memory_order_relaxed); begin < end;
+                     begin = next.fetch_add(piece, std::memory_order_relaxed)) {
+                    work(thread, begin, std::min(begin + piece, end));
+                }
+            }
+        });
     }
 
+    /// The same with parts of about equal size, which begin at multiples of `piece`, too: loops that the
+    /// compiler makes work on vectors round what is left over in another way, and pieces of a multiple of any
+    /// vector's length give the bits of the whole.
+    template <class Work>
+    void share(int items, int piece, const Work& work)
+    {
+        const int pieces = (items + piece - 1) / piece;
+        for (int part = 0; part <= count(); ++part) {
+            const long long first = static_cast<long long>(pieces) * part / count();
+            bounds_[part] = static_cast<int>(std::min<long long>(items, piece * first));
+        }
+        share(bounds_, piece, work);
+    }
+
+    /// Ends a round of loops that is like the one before, or (not `counts`) one that is not. From the time
+    /// that they take all threads work, or the first alone, whichever is the faster: looked at every some
+    /// hundred or thousand rounds.
+    void lap(bool counts);
+
 private:
+    /// Next item of a part, on a line of the cache of its own.
+    struct alignas(64) Cursor
+    {
+        std::atomic<int> next = 0;
+    };
+
     using Call = void (*)(const void* job, int part);
-    static constexpr int trustedLaps = 400;
-    static constexpr int probedLaps = 25;
+    static constexpr int settlingLaps = 30; ///< in which threads that have slept find their processors
+    static constexpr int probedLaps = 20;
+    static constexpr int leastTrusted = 400; ///< doubled whenever the other way is the slower one again
+    static constexpr int mostTrusted = 3200;
 
     void start(Call call, const void* job);
     void finish();
@@ -63,14 +111,17 @@ private:
     bool probes_ = false; ///< the other way than what was the faster one
     int laps_ = 0;
     int wanted_ = probedLaps; ///< of them, before the other way is looked at
-    double window_ = 0;       ///< their time [s]
-    double kept_ = 0;         ///< per lap, of what was the faster way [s]
+    int trusted_ = leastTrusted;
+    double window_ = 0; ///< their time [s]
+    double kept_ = 0;   ///< per lap, of what was the faster way [s]
     std::chrono::steady_clock::time_point lapped_ = std::chrono::steady_clock::now();
     Call call_ = nullptr;
     const void* job_ = nullptr;
     std::vector<std::exception_ptr> failures_;
-    std::atomic<int> round_ = 0; ///< rises with every loop
-    std::atomic<int> busy_ = 0;  ///< workers that have not finished it
+    std::vector<Cursor> cursors_; ///< per part
+    std::vector<int> bounds_;     ///< of parts of equal size
+    std::atomic<int> round_ = 0;  ///< rises with every loop
+    std::atomic<int> busy_ = 0;   ///< workers that have not finished it
     std::atomic<bool> ends_ = false;
     std::vector<std::thread> workers_;
 };

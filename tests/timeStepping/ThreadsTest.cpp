@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <numeric>
 #include <stdexcept>
 #include <thread>
 
@@ -17,6 +18,7 @@ struct Variant
     int phases;
     bool femCells;
     SolutionControls::PressureCoupling coupling = SolutionControls::PressureCoupling::explicitStep;
+    int passedPointsPerCell = 0;
 };
 
 /// A skirt on its way into sand, with the mesh that follows it: every loop of a step has work to do.
@@ -29,6 +31,7 @@ State skirtAfterSomeSteps(const Variant& variant, int threads)
     simulation.scene.controls.femCells =
         variant.femCells ? SolutionControls::FemCells::automatic : SolutionControls::FemCells::none;
     simulation.scene.controls.femDistance = 2;
+    simulation.scene.controls.passedPointsPerCell = variant.passedPointsPerCell;
     simulation.scene.controls.pressureCoupling = variant.coupling;
     if (variant.triangles) {
         simulation.scene.controls.locking = SolutionControls::Locking::nodalAverage;
@@ -90,7 +93,9 @@ INSTANTIATE_TEST_SUITE_P(, EveryStep,
                                            Variant{"twoPhaseTriangles", true, 2, false},
                                            Variant{"twoPhaseTrianglesBesideFemCells", true, 2, true},
                                            Variant{"twoPhaseProjectionBesideFemCells", false, 2, true,
-                                                   SolutionControls::PressureCoupling::projection}),
+                                                   SolutionControls::PressureCoupling::projection},
+                                           Variant{"twoPhaseQuadrilateralsWithMergedPoints", false, 2, true,
+                                                   SolutionControls::PressureCoupling::explicitStep, 4}),
                          [](const auto& variant) { return variant.param.name; });
 
 TEST_P(EveryStep, hasTheSameBitsForAnyNumberOfThreads)
@@ -117,12 +122,30 @@ TEST(Threads, shareEveryItemOnce)
     Threads threads(3);
     for (const int items : {0, 1, 7, 1000}) {
         std::vector<int> done(items, 0);
-        threads.run([&](int part) {
-            for (int i = threads.first(items, part); i < threads.first(items, part + 1); ++i) {
+        threads.share(items, 3, [&](int, int begin, int end) {
+            for (int i = begin; i < end; ++i) {
                 ++done[i];
             }
         });
         EXPECT_EQ(std::ranges::count(done, 1), items);
+    }
+}
+
+TEST(Threads, shareWhatOneOfThemDoesNotComeTo)
+{
+    Threads threads(3);
+    const std::vector<int> bounds{0, 0, 100, 100}; // all of it the second thread's
+    std::vector<int> done(100, 0);
+    std::vector<int> begins(100, 0);
+    threads.share(bounds, 8, [&](int, int begin, int end) {
+        ++begins[begin];
+        for (int i = begin; i < end; ++i) {
+            ++done[i];
+        }
+    });
+    EXPECT_EQ(std::ranges::count(done, 1), 100);
+    for (int i = 0; i < 100; ++i) {
+        EXPECT_TRUE(begins[i] == 0 || i % 8 == 0) << "a piece begins at " << i;
     }
 }
 
@@ -170,6 +193,28 @@ TEST(Threads, areOnePerFiveThousandPointsUnlessAskedFor)
     EXPECT_EQ(threadsFor(0, 100), 1);
     EXPECT_LE(threadsFor(0, 10'000), 2);
     EXPECT_EQ(threadsFor(3, 100), 3);
+}
+
+// Merging where the tip has passed: fewer points, and no soil lost.
+TEST(PassedPoints, areMergedAndTheirMassStays)
+{
+    Variant variant{"", false, 2, true, SolutionControls::PressureCoupling::explicitStep, 4};
+    const State merged = skirtAfterSomeSteps(variant, 1);
+    variant.passedPointsPerCell = 0;
+    const State all = skirtAfterSomeSteps(variant, 1);
+    EXPECT_LT(merged.points.size(), all.points.size());
+    const auto sum = [](const std::vector<double>& values) {
+        return std::accumulate(values.begin(), values.end(), 0.0);
+    };
+    EXPECT_NEAR(sum(merged.points.mass), sum(all.points.mass), 1e-12 * sum(all.points.mass));
+    const double force = all.reactions[0].force;
+    EXPECT_NEAR(merged.reactions[0].force, force, 0.05 * std::abs(force));
+    // Ahead of the tip nothing is merged.
+    const double tip = merged.bodies[0].tipLevel - 0.3;
+    const auto below = [tip](const State& state) {
+        return std::ranges::count_if(state.points.z, [tip](double z) { return z < tip; });
+    };
+    EXPECT_EQ(below(merged), below(all));
 }
 
 } // namespace
