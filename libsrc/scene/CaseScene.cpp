@@ -337,6 +337,7 @@ CaseScene readCaseScene(const std::filesystem::path& caseDirectory, const std::f
                 continue;
             }
             std::vector<std::string> names;
+            names.reserve(state.mesh.cellZones.size());
             for (const auto& [name, cells] : state.mesh.cellZones) {
                 names.push_back(name);
             }
