@@ -96,9 +96,9 @@ private:
     void addPlane(int plane)
     {
         for (int cell = 0; cell < flat_.cells(); ++cell) {
-            std::vector<int> face;
+            std::vector<int> face(flat_.corners);
             for (int k = 0; k < flat_.corners; ++k) {
-                face.push_back(flat_.nodePoints[flat_.node(cell, k)][plane]);
+                face[k] = flat_.nodePoints[flat_.node(cell, k)][plane];
             }
             if (plane == 1) {
                 std::reverse(face.begin(), face.end());
