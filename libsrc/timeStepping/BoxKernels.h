@@ -198,9 +198,12 @@ void ExplicitStep<Shape, phases>::mapBoxCellToNodes(const State& state, int c)
     const double inertia = inertiaScale_[c];
     fullness_[c] = 1;
     for (int k = 0; k < corners; ++k) {
-        cornerSums_[c * corners + k] = {
-            inertia * sum[k].mass, inertia * sum[k].momentumR, inertia * sum[k].momentumZ, sum[k].forceR,
-            sum[k].forceZ,         inertia * sum[k].mass};
+        cornerSums_[c * corners + k] = {inertia * sum[k].mass,
+                                        inertia * sum[k].momentumR,
+                                        inertia * sum[k].momentumZ,
+                                        inertia * sum[k].mass,
+                                        sum[k].forceR,
+                                        sum[k].forceZ};
     }
 }
 

@@ -310,13 +310,14 @@ struct Rectangle
             const double middle = 0.5 * (c.r0 + r1);
             m.volume = c.dr * c.dz * middle;
             // integral of d(r N)/dr dr dz: the radial hat times r at the two ends
-            const double left = -0.5 * c.r0 * c.dz / m.volume;
-            const double right = 0.5 * r1 * c.dz / m.volume;
+            const double inverse = 1 / m.volume;
+            const double left = -0.5 * c.r0 * c.dz * inverse;
+            const double right = 0.5 * r1 * c.dz * inverse;
             m.br[0] = m.br[3] = left;
             m.br[1] = m.br[2] = right;
             // integral of the radial hats times r
-            const double zLeft = c.dr * (2 * c.r0 + r1) / 6 / m.volume;
-            const double zRight = c.dr * (c.r0 + 2 * r1) / 6 / m.volume;
+            const double zLeft = c.dr * (2 * c.r0 + r1) * (inverse / 6);
+            const double zRight = c.dr * (c.r0 + 2 * r1) * (inverse / 6);
             m.bz[0] = -zLeft;
             m.bz[1] = -zRight;
             m.bz[2] = zRight;
@@ -333,6 +334,13 @@ struct Rectangle
 
     /// dz/dxi and dz/deta.
     static std::array<double, 2> heightSlopes(const Cell& c) { return {0, 0.5 * c.dz}; }
+
+    /// Mean of N at the corners.
+    static std::array<double, 4> cornerShares(const Cell& c)
+    {
+        const double skew = axisymmetric ? c.dr / (24 * (c.r0 + 0.5 * c.dr)) : 0; // xiCentre / 4
+        return {0.25 - skew, 0.25 + skew, 0.25 + skew, 0.25 - skew};
+    }
 
     static Moments<4> moments(const Cell& c)
     {
@@ -616,6 +624,7 @@ struct Quadrilateral
     static std::array<double, 2> heightSlopes(const Cell& c) { return {c.az, c.bz}; }
 
     static const Moments<4>& moments(const Cell& cell) { return cell.moments; }
+    static std::array<double, 4> cornerShares(const Cell& cell) { return std::to_array(cell.moments.n); }
 
     static void velocityGradient(const Cell& c, const double* vr, const double* vz, VelocityGradient<4>& g)
     {
@@ -775,6 +784,8 @@ struct Triangle
         }
         return m;
     }
+
+    static std::array<double, 3> cornerShares(const Cell& c) { return std::to_array(moments(c).n); }
 
     static Moments<3> moments(const Cell& c)
     {

@@ -2,6 +2,7 @@
 
 #include "mesh/CellLocator.h"
 #include "timeStepping/CellShapes.h"
+#include "timeStepping/Four.h"
 #include "timeStepping/PointBox.h"
 #include "timeStepping/PointCells.h"
 #include "timeStepping/PressureSolver.h"
@@ -69,30 +70,57 @@ private:
     static constexpr int momentCount = shapes::Moments<corners>::count;
 
     /// What the points of one cell add to one of its corners.
-    struct Corner
+    struct alignas(64) Corner
     {
-        double mass, momentumR, momentumZ, forceR, forceZ;
-        double fullMass; ///< what it would be in a cell evenly filled
+        double mass = 0, momentumR = 0, momentumZ = 0;
+        double fullMass = 0; ///< what it would be in a cell evenly filled
+        double forceR = 0, forceZ = 0;
+        double spare[2] = {};
     };
 
     /// Nodal result of a step.
     struct alignas(64) Node
     {
         double mass;
-        double vr, vz;           ///< new velocity; strains are taken from it
+        double vr, vz; ///< new velocity; strains are taken from it
+        double spare;
         double dvr, dvz;         ///< change of velocity in the step
         double placeVr, placeVz; ///< velocity that moves the points: mean of old and new, new where held
-        double spare;
+
+        /// What the points take over: dvr, dvz, placeVr, placeVz.
+        [[nodiscard]] Four motion() const { return fourFrom(dvr); }
     };
 
     /// What the liquid in the points of one cell adds to one of its corners.
-    struct LiquidCorner
+    struct alignas(32) LiquidCorner
     {
-        double mass, momentumR, momentumZ;
-        double forceR, forceZ;                     ///< of the excess pore pressure on the mixture
-        double drag;                               ///< integral of N n^2 viscosity/permeability
-        double volume, poreVolume, pressureVolume; ///< integrals of N, N n and N times excess pore pressure
+        double mass = 0, momentumR = 0, momentumZ = 0;
+        double drag = 0;                                       ///< integral of N n^2 viscosity/permeability
+        double volume = 0, poreVolume = 0, pressureVolume = 0; ///< of N, N n and N times excess pore pressure
+        double spare = 0;
+        double forceR = 0, forceZ = 0; ///< of the excess pore pressure on the mixture
+        double spares[2] = {};
     };
+
+    /// Sum of what the cells around a node have on it, four numbers at once.
+    template <class OfCorner>
+    [[nodiscard]] OfCorner gather(const std::vector<OfCorner>& ofCorners, int i) const
+    {
+        constexpr int fours = sizeof(OfCorner) / (4 * sizeof(double));
+        std::array<Four, fours> sums;
+        sums.fill(0);
+        for (int k = nodeCorners_.start[i]; k < nodeCorners_.start[i + 1]; ++k) {
+            const double* const ofCorner = &ofCorners[nodeCorners_.item[k]].mass;
+            for (int j = 0; j < fours; ++j) {
+                sums[j] += fourFrom(ofCorner[4 * j]);
+            }
+        }
+        OfCorner sum;
+        for (int j = 0; j < fours; ++j) {
+            setFour((&sum.mass)[4 * j], sums[j]);
+        }
+        return sum;
+    }
 
     /// What the kernels need of a material for its liquid.
     struct LiquidProperties
@@ -104,16 +132,21 @@ private:
     };
 
     /// Nodal result for the liquid, and what is needed to solve it again where the solid is held.
-    struct LiquidNode
+    struct alignas(64) LiquidNode
     {
-        double mass, drag;                   ///< drag: times the step
-        double solidVr, solidVz;             ///< velocity of the solid with its own forces, without drag
-        double liquidVr, liquidVz;           ///< of the liquid, likewise
-        double relativeVr, relativeVz;       ///< of the liquid to the solid, new
-        double oldRelativeVr, oldRelativeVz; ///< at the start of the step
-        double keep;                         ///< share of a relative velocity that drag leaves
+        double mass, drag;         ///< drag: times the step
+        double solidVr, solidVz;   ///< velocity of the solid with its own forces, without drag
+        double liquidVr, liquidVz; ///< of the liquid, likewise
         double porosity;
-        double pressure; ///< mean excess pore pressure round the node [Pa]
+        double spare;
+        double relativeVr, relativeVz;       ///< of the liquid to the solid, new
+        double keep;                         ///< share of a relative velocity that drag leaves
+        double pressure;                     ///< mean excess pore pressure round the node [Pa]
+        double oldRelativeVr, oldRelativeVz; ///< at the start of the step
+        double none[2];                      ///< zero
+
+        /// What the points take over: changes of the relative velocity but for drag, keep, pressure.
+        [[nodiscard]] Four motion() const { return fourFrom(relativeVr) - keep * fourFrom(oldRelativeVr); }
     };
 
     /// By which velocities a pressure increment moves a node (ProjectionKernels.h): along a direction and
@@ -352,8 +385,6 @@ private:
     void addFemForces(const State& state, int f, int count);
     void mapFemEdgeToNodes(int f);
     void solveInnerNodes(double dt);
-    [[nodiscard]] Corner gatherSolid(int i) const;
-    [[nodiscard]] LiquidCorner gatherLiquid(int i) const;
     void keepFemMomentum(int c);
     template <class Real>
     [[nodiscard]] Real tangentShare(int f, int count);
@@ -442,7 +473,6 @@ private:
     std::vector<double> givenPressure_;            ///< per node: excess pressure of a boundary, or NaN
     std::vector<int> openNodes_;                   ///< on patches that give a pressure
     std::vector<int> voidNodes_;                   ///< of voidCells_ in the last step
-    std::vector<double> pressureShape_;            ///< per point: pressure interpolated from the nodes
     mutable std::vector<double> cellPressure_, cellAverage_; ///< of the filter
     std::vector<double> cellLiquidRate_;                     ///< as cellRate_, for the liquid
     std::vector<double> loadedArea_;                         ///< per load: of its points (see loadedAreas)

@@ -53,21 +53,28 @@ struct Spread
     static constexpr double ridge = 0.02;
 
     Spread(double inXi, double inEta, double mixed)
-        : xx(inXi), yy(inEta), xy(mixed), determinant((xx + ridge) * (yy + ridge) - xy * xy)
+        : xx(inXi), yy(inEta), xy(mixed), inverse(1 / ((xx + ridge) * (yy + ridge) - xy * xy))
     {
     }
 
-    [[nodiscard]] double slopeXi(double cx, double cy) const
+    template <class Real>
+    [[nodiscard]] Real slopeXi(const Real& cx, const Real& cy) const
     {
-        return (cx * (yy + ridge) - cy * xy) / determinant;
+        return cx * ((yy + ridge) * inverse) - cy * (xy * inverse);
     }
-    [[nodiscard]] double slopeEta(double cx, double cy) const
+    template <class Real>
+    [[nodiscard]] Real slopeEta(const Real& cx, const Real& cy) const
     {
-        return (cy * (xx + ridge) - cx * xy) / determinant;
+        return cy * ((xx + ridge) * inverse) - cx * (xy * inverse);
     }
 
-    double xx, yy, xy, determinant;
+    double xx, yy, xy, inverse; ///< moments; 1 over their determinant
 };
+
+inline Four stressOf(const MaterialPoints& points, int p)
+{
+    return four(points.stress[0][p], points.stress[1][p], points.stress[2][p], points.stress[3][p]);
+}
 
 /// Fastest wave of soil and liquid without drag between them [m/s]: sqrt of the largest eigenvalue of the
 /// stiffness over the densities of the two phases. Drag slows it down to that of the undrained soil at most.
@@ -217,7 +224,6 @@ ExplicitStep<Shape, phases>::ExplicitStep(const Scene& scene, State& state)
         openNodes_ = scene.liquidBoundary.openNodes(mesh);
         waterLoad_.resize(mesh.nodes());
         cellLiquidRate_.assign(cells, 0);
-        pressureShape_.resize(state.points.size());
         if (projects()) {
             mobility_.resize(mesh.nodes());
             flowRow_.resize(cellNodes_.size());
@@ -1035,11 +1041,8 @@ void ExplicitStep<Shape, phases>::mapCellToNodes(State& state, int c)
     const int* const last = pointCells_.end(c);
 
     const double viscousStress = this->viscousStress(state, c, points.material[*first]);
-    double mass[corners] = {};
-    double momentumR[corners] = {};
-    double momentumZ[corners] = {};
-    double forceR[corners] = {};
-    double forceZ[corners] = {};
+    std::array<Four, corners> inertia; // mass, momenta, weight over gravity
+    inertia.fill(0);
     Values values;
     const bool affine = points.affine();
     const bool fitted = fits(c) && state.filled[c] != 0;
@@ -1050,68 +1053,49 @@ void ExplicitStep<Shape, phases>::mapCellToNodes(State& state, int c)
     const auto addInertiaAndWeight = [&](int p, double x, double y) {
         const double pointMass = fitted ? fit.at(x, y) * points.mass[p] : points.mass[p];
         const double m = twoPhase ? pointMass * solidShare_[points.material[p]] : pointMass;
-        const double mr = m * points.vr[p];
-        const double mz = m * points.vz[p];
-        const double weight = pointMass * gravityShare_[points.material[p]];
-        const double wr = weight * scene_.gravity[0];
-        const double wz = weight * scene_.gravity[1];
+        const Four ofPoint =
+            four(m, m * points.vr[p], m * points.vz[p], pointMass * gravityShare_[points.material[p]]);
         for (int k = 0; k < corners; ++k) {
-            mass[k] += values.N[k] * m;
-            momentumR[k] += values.N[k] * mr;
-            momentumZ[k] += values.N[k] * mz;
-            forceR[k] += values.N[k] * wr;
-            forceZ[k] += values.N[k] * wz;
+            inertia[k] += values.N[k] * ofPoint;
         }
         for (int k = 0; affine && k < corners; ++k) {
             const auto [r, z] = affineVelocity(state, p, c * corners + k);
-            momentumR[k] += values.N[k] * m * r;
-            momentumZ[k] += values.N[k] * m * z;
+            inertia[k] += values.N[k] * m * four(0, r, z, 0);
         }
     };
 
+    double forceR[corners] = {}; // of the stress
+    double forceZ[corners] = {};
+    const int f = resting(c) ? femOf_[c] : -1;
     if (state.filled[c]) {
         // The points' stresses as mean and slopes over the cell, weighted with volume.
         double w = 0, wx = 0, wy = 0, wxx = 0, wyy = 0, wxy = 0;
-        double s[4] = {}, sx[4] = {}, sy[4] = {};
+        Four s = 0, sx = 0, sy = 0;
         for (const int* i = first; i != last; ++i) {
             const int p = *i;
             const auto [x, y] = Shape::evaluate(cell, points.r[p], points.z[p], values);
             addInertiaAndWeight(p, x, y);
             const double v = points.volume[p];
+            const Four ofPoint = v * kernels::stressOf(points, p);
             w += v;
+            s += ofPoint;
             if constexpr (corners == 4) {
-                wx += v * x;
-                wy += v * y;
-                wxx += v * x * x;
-                wyy += v * y * y;
-                wxy += v * x * y;
-                for (int j = 0; j < 4; ++j) {
-                    const double vs = v * points.stress[j][p];
-                    s[j] += vs;
-                    sx[j] += vs * x;
-                    sy[j] += vs * y;
-                }
-            } else {
-                for (int j = 0; j < 4; ++j) {
-                    s[j] += v * points.stress[j][p];
-                }
+                const double vx = v * x;
+                const double vy = v * y;
+                wx += vx;
+                wy += vy;
+                wxx += vx * x;
+                wyy += vy * y;
+                wxy += vx * y;
+                sx += x * ofPoint;
+                sy += y * ofPoint;
             }
         }
         const double inverse = 1 / w;
         fullness_[c] = dilatation_[c].volume * inverse;
-        for (int k = 0; k < corners; ++k) {
-            forceR[k] *= fullness_[c];
-            forceZ[k] *= fullness_[c];
-        }
-        shapes::StressField<corners> field;
-        double(&stress)[4] = field[0]; // mean
-        for (int j = 0; j < 4; ++j) {
-            stress[j] = s[j] * inverse + (j < 3 ? viscousStress : 0);
-        }
-        const int f = resting(c) ? femOf_[c] : -1;
-        for (int k = 0; f >= 0 && k < corners; ++k) {
-            femCells_[f].mass[k] = fullness_[c] * mass[k];
-        }
+        alignas(32) shapes::StressField<corners> field;
+        const Four mean = s * inverse;
+        Four stress = mean;
         if constexpr (corners == 4) {
             // What varies over a cell at rest is known from its weight, wherever the points are: only the
             // rest is taken from them.
@@ -1120,36 +1104,32 @@ void ExplicitStep<Shape, phases>::mapCellToNodes(State& state, int c)
             const double fullWeight = -scene_.gravity[1] * gravityShare_[material] * density_[material];
             const double halfRise = std::max(std::abs(riseXi), std::abs(riseEta));
             // Soil that carries less than half a cell of itself is not at rest.
-            const double weight = std::clamp(-stress[1] / halfRise, 0.0, std::max(fullWeight, 0.0));
-            const double ratio = stress[1] < 0 ? std::clamp(stress[0] / stress[1], 0.0, 1.0) : 0.0;
-            const double known[4] = {ratio * weight, weight, ratio * weight, 0};
+            const double radial = mean[0] + viscousStress;
+            const double vertical = mean[1] + viscousStress;
+            const double weight = std::clamp(-vertical / halfRise, 0.0, std::max(fullWeight, 0.0));
+            const double ratio = vertical < 0 ? std::clamp(radial / vertical, 0.0, 1.0) : 0.0;
+            const Four known = four(ratio * weight, weight, ratio * weight, 0);
+            const Four knownXi = known * riseXi;
+            const Four knownEta = known * riseEta;
             const double x = wx * inverse;
             const double y = wy * inverse;
             pointCentre_[c] = {x, y};
             const kernels::Spread spread(wxx * inverse - x * x, wyy * inverse - y * y, wxy * inverse - x * y);
-            double(&slopeXi)[4] = field[1];
-            double(&slopeEta)[4] = field[2];
-            for (int j = 0; j < 4; ++j) {
-                const double knownXi = known[j] * riseXi;
-                const double knownEta = known[j] * riseEta;
-                const double mean = s[j] * inverse;
-                const double cx = sx[j] * inverse - x * mean - knownXi * spread.xx - knownEta * spread.xy;
-                const double cy = sy[j] * inverse - y * mean - knownXi * spread.xy - knownEta * spread.yy;
-                slopeXi[j] = spread.slopeXi(cx, cy) + knownXi;
-                slopeEta[j] = spread.slopeEta(cx, cy) + knownEta;
-                stress[j] -= knownXi * x + knownEta * y;
-                if (fitted) { // from the points' centre to that of the cell
-                    stress[j] -= (slopeXi[j] - knownXi) * (x - Shape::moments(cell).xiCentre) +
-                                 (slopeEta[j] - knownEta) * y;
-                }
+            const Four cx = sx * inverse - x * mean - knownXi * spread.xx - knownEta * spread.xy;
+            const Four cy = sy * inverse - y * mean - knownXi * spread.xy - knownEta * spread.yy;
+            Four slopeXi = spread.slopeXi(cx, cy) + knownXi;
+            Four slopeEta = spread.slopeEta(cx, cy) + knownEta;
+            stress -= knownXi * x + knownEta * y;
+            if (fitted) { // from the points' centre to that of the cell
+                stress -=
+                    (slopeXi - knownXi) * (x - Shape::moments(cell).xiCentre) + (slopeEta - knownEta) * y;
             }
             if (meanDilatation) { // the mean stress works on the mean dilatation alone
-                const double dx = (slopeXi[0] + slopeXi[1] + slopeXi[2]) / 3;
-                const double dy = (slopeEta[0] + slopeEta[1] + slopeEta[2]) / 3;
-                for (int j = 0; j < 3; ++j) {
-                    slopeXi[j] -= dx;
-                    slopeEta[j] -= dy;
-                }
+                constexpr double third = 1.0 / 3;
+                const double dx = third * (slopeXi[0] + slopeXi[1] + slopeXi[2]);
+                const double dy = third * (slopeEta[0] + slopeEta[1] + slopeEta[2]);
+                slopeXi -= four(dx, dx, dx, 0);
+                slopeEta -= four(dy, dy, dy, 0);
             }
             if (f >= 0) {
                 fem_.shareXi[f] = spread.xx / (spread.xx + kernels::Spread::ridge);
@@ -1159,10 +1139,13 @@ void ExplicitStep<Shape, phases>::mapCellToNodes(State& state, int c)
                     fem_.slopeEta[j][f] = slopeEta[j];
                 }
             }
+            setFour(field[1][0], slopeXi);
+            setFour(field[2][0], slopeEta);
         }
+        setFour(field[0][0], stress + four(viscousStress, viscousStress, viscousStress, 0));
         Shape::addForces(cell, field, forceR, forceZ);
         for (int j = 0; f >= 0 && j < 4; ++j) {
-            fem_.stress[j][f] = stress[j] - (j < 3 ? viscousStress : 0);
+            fem_.stress[j][f] = stress[j];
         }
     } else {
         fullness_[c] = 1;
@@ -1207,20 +1190,27 @@ void ExplicitStep<Shape, phases>::mapCellToNodes(State& state, int c)
         }
     }
 
-    if (resting(c) && femCells_[femOf_[c]].restedBefore) {
-        for (int k = 0; k < corners; ++k) {
-            momentumR[k] = mass[k] * nodes_[cellNodes_[c * corners + k]].vr;
-            momentumZ[k] = mass[k] * nodes_[cellNodes_[c * corners + k]].vz;
+    for (int k = 0; f >= 0 && k < corners; ++k) {
+        const double mass = inertia[k][0];
+        femCells_[f].mass[k] = fullness_[c] * mass;
+        if (femCells_[f].restedBefore) {
+            const Node& node = nodes_[cellNodes_[c * corners + k]];
+            inertia[k] = four(mass, mass * node.vr, mass * node.vz, inertia[k][3]);
         }
     }
-    const auto& moments = Shape::moments(cell);
-    const double inertia = inertiaScale_[c] * fullness_[c];
+    const std::array<double, corners> share = Shape::cornerShares(cell);
+    const double scale = inertiaScale_[c] * fullness_[c];
+    const double gravityR = scene_.gravity[0] * fullness_[c];
+    const double gravityZ = scene_.gravity[1] * fullness_[c];
     const double fullMass = inertiaScale_[c] * density_[points.material[*first]] *
-                            (twoPhase ? solidShare_[points.material[*first]] : 1.0) * moments.volume;
+                            (twoPhase ? solidShare_[points.material[*first]] : 1.0) * dilatation_[c].volume;
     Corner* const out = &cornerSums_[c * corners];
     for (int k = 0; k < corners; ++k) {
-        out[k] = {inertia * mass[k], inertia * momentumR[k], inertia * momentumZ[k], forceR[k],
-                  forceZ[k],         fullMass * moments.n[k]};
+        const double weight = inertia[k][3];
+        setFour(out[k].mass, scale * inertia[k]);
+        out[k].fullMass = fullMass * share[k];
+        out[k].forceR = forceR[k] + gravityR * weight;
+        out[k].forceZ = forceZ[k] + gravityZ * weight;
     }
 }
 
@@ -1355,29 +1345,13 @@ void ExplicitStep<Shape, phases>::mapToNodes(State& state)
 }
 
 template <class Shape, int phases>
-typename ExplicitStep<Shape, phases>::Corner ExplicitStep<Shape, phases>::gatherSolid(int i) const
-{
-    Corner sum{};
-    for (int k = nodeCorners_.start[i]; k < nodeCorners_.start[i + 1]; ++k) {
-        const Corner& corner = cornerSums_[nodeCorners_.item[k]];
-        sum.mass += corner.mass;
-        sum.momentumR += corner.momentumR;
-        sum.momentumZ += corner.momentumZ;
-        sum.forceR += corner.forceR;
-        sum.forceZ += corner.forceZ;
-        sum.fullMass += corner.fullMass;
-    }
-    return sum;
-}
-
-template <class Shape, int phases>
 void ExplicitStep<Shape, phases>::solveNodes(State& state, double dt)
 {
     const double damping = scene_.controls.localDamping;
     const bool tractions = scene_.conditions.hasTractions();
     const bool seepage = !twoPhase && !seepage_.empty();
     const auto solve = [&](int i) {
-        Corner sum = gatherSolid(i);
+        Corner sum = gather(cornerSums_, i);
         Node& node = nodes_[i];
         node.mass = sum.mass;
         looseNode_[i] = surfaceNode_[i] != 0 || sum.mass < kernels::looseShare * sum.fullMass;
@@ -1397,7 +1371,7 @@ void ExplicitStep<Shape, phases>::solveNodes(State& state, double dt)
             sum.forceZ += waterLoad_[i][1];
         }
         if constexpr (twoPhase) {
-            solveTwoPhaseNode(i, sum, gatherLiquid(i), dt);
+            solveTwoPhaseNode(i, sum, gather(liquidCorners_, i), dt);
             return;
         }
         const double inverse = 1 / sum.mass;
@@ -1572,28 +1546,22 @@ void ExplicitStep<Shape, phases>::mapCellToPoints(State& state, double dt, int c
     const int* const last = pointCells_.end(c);
     const double flip = scene_.controls.flipOf(dt);
 
-    double vr[corners], vz[corners], dvr[corners], dvz[corners], pr[corners], pz[corners];
+    double vr[corners], vz[corners];
+    std::array<Four, corners> motion; // Node::motion
     for (int k = 0; k < corners; ++k) {
         const Node& node = nodes_[cellNodes_[c * corners + k]];
         vr[k] = node.vr;
         vz[k] = node.vz;
-        dvr[k] = node.dvr;
-        dvz[k] = node.dvz;
-        pr[k] = node.placeVr;
-        pz[k] = node.placeVz;
+        motion[k] = node.motion();
     }
-
-    double wr[corners], wz[corners], relativeR[corners], relativeZ[corners], keep[corners],
-        nodalPressure[corners];
+    [[maybe_unused]] double wr[corners], wz[corners];
+    [[maybe_unused]] std::array<Four, corners> liquidMotion; // LiquidNode::motion
     if constexpr (twoPhase) {
         for (int k = 0; k < corners; ++k) {
             const LiquidNode& node = liquidNodes_[cellNodes_[c * corners + k]];
             wr[k] = vr[k] + node.relativeVr;
             wz[k] = vz[k] + node.relativeVz;
-            relativeR[k] = node.relativeVr - node.keep * node.oldRelativeVr;
-            relativeZ[k] = node.relativeVz - node.keep * node.oldRelativeVz;
-            keep[k] = node.keep;
-            nodalPressure[k] = node.pressure;
+            liquidMotion[k] = node.motion();
         }
     }
 
@@ -1601,11 +1569,16 @@ void ExplicitStep<Shape, phases>::mapCellToPoints(State& state, double dt, int c
     double liquidRate = 0; // of the liquid's velocity, likewise
     double liquidGradient[3] = {};
     // Filled cells: mean and slopes of the velocity gradient (rr, zz, hoop, v_r,z, v_z,r) about the points'
-    // centre.
+    // centre; of the strain increments with the dilatation that they take, of the spin and of that
+    // dilatation.
     shapes::VelocityGradient<corners> gradient = {};
+    std::array<Four, momentCount> strain;
+    double spin[momentCount] = {};
+    double dilatation[momentCount] = {};
     double centreXi = 0;
     double centreEta = 0;
     const bool filled = state.filled[c] != 0;
+    const bool sharedRate = meanDilatation || nodalAverage;
     if constexpr (strains) {
         if (nodalAverage) {
             rate = cellRate_[c];
@@ -1614,14 +1587,11 @@ void ExplicitStep<Shape, phases>::mapCellToPoints(State& state, double dt, int c
         if (filled) {
             Shape::velocityGradient(cell, vr, vz, gradient);
             if constexpr (twoPhase) {
-                const auto& m = Shape::moments(cell);
+                shapes::VelocityGradient<corners> ofLiquid;
+                Shape::velocityGradient(cell, wr, wz, ofLiquid);
                 for (int i = 0; i < momentCount; ++i) {
-                    for (int k = 0; k < corners; ++k) {
-                        liquidGradient[i] += (m.gr[i][k] + m.h[i][k]) * wr[k] + m.gz[i][k] * wz[k];
-                    }
+                    liquidGradient[i] = ofLiquid[i][0] + ofLiquid[i][1] + ofLiquid[i][2];
                 }
-                liquidGradient[1] /= m.inertiaXi;
-                liquidGradient[2] /= m.inertiaEta;
             }
             if (!nodalAverage) {
                 rate = gradient[0][0] + gradient[0][1] + gradient[0][2];
@@ -1630,6 +1600,15 @@ void ExplicitStep<Shape, phases>::mapCellToPoints(State& state, double dt, int c
             if constexpr (corners == 4) {
                 centreXi = fits(c) ? Shape::moments(cell).xiCentre : pointCentre_[c][0];
                 centreEta = fits(c) ? 0 : pointCentre_[c][1];
+            }
+            for (int i = 0; i < momentCount; ++i) {
+                const double(&g)[5] = gradient[i];
+                const double own = g[0] + g[1] + g[2];
+                const double taken = !sharedRate ? own : i == 0 ? rate : 0.0;
+                const double shift = (taken - own) / 3;
+                strain[i] = dt * four(g[0] + shift, g[1] + shift, g[2] + shift, g[3] + g[4]);
+                spin[i] = 0.5 * dt * (g[4] - g[3]);
+                dilatation[i] = dt * taken;
             }
         } else if (meanDilatation) { // the same mean over the points as in the forces
             double volume = 0;
@@ -1656,35 +1635,55 @@ void ExplicitStep<Shape, phases>::mapCellToPoints(State& state, double dt, int c
             liquidRate /= volume;
         }
     }
-    const bool sharedRate = meanDilatation || nodalAverage;
     const bool affine = points.affine();
 
-    double rateSum = 0;
-    double shapeSum = 0, excessSum = 0, volumeSum = 0;
+    double dilatationSum = 0;
+    double differenceSum = 0, volumeSum = 0;
     Values values;
     for (const int* i = first; i != last; ++i) {
         const int p = *i;
         const double r = points.r[p];
         const auto [xi, eta] = Shape::evaluate(cell, r, points.z[p], values);
+        [[maybe_unused]] Four ofLiquid; // motion of the liquid at the point
+        if constexpr (twoPhase) {
+            ofLiquid = values.N[0] * liquidMotion[0];
+            for (int k = 1; k < corners; ++k) {
+                ofLiquid += values.N[k] * liquidMotion[k];
+            }
+        }
         if constexpr (strains) {
-            double rr = 0, zz = 0, rz = 0, zr = 0, hoop = 0;
-            double ownLiquid = 0;
+            double e = 0; // dilatation
+            [[maybe_unused]] double ownLiquid = 0;
             if (filled) {
-                const double x = xi - centreXi;
-                const double y = eta - centreEta;
-                const auto at = [&](int j) {
-                    if constexpr (corners == 4) {
-                        return gradient[0][j] + x * gradient[1][j] + y * gradient[2][j];
+                Four increments = strain[0];
+                double turned = spin[0];
+                e = dilatation[0];
+                ownLiquid = sharedRate ? liquidRate : liquidGradient[0];
+                if constexpr (corners == 4) {
+                    const double x = xi - centreXi;
+                    const double y = eta - centreEta;
+                    increments += x * strain[1] + y * strain[2];
+                    turned += x * spin[1] + y * spin[2];
+                    if (!sharedRate) {
+                        e += x * dilatation[1] + y * dilatation[2];
+                        ownLiquid += x * liquidGradient[1] + y * liquidGradient[2];
                     }
-                    return gradient[0][j];
-                };
-                rr = at(0);
-                zz = at(1);
-                hoop = at(2);
-                rz = at(3);
-                zr = at(4);
-                ownLiquid = liquidGradient[0] + x * liquidGradient[1] + y * liquidGradient[2];
+                }
+                for (int j = 0; j < 4; ++j) {
+                    strain_[j][p] = increments[j];
+                }
+                spin_[p] = turned;
+                for (int j = 0; affine && j < 4; ++j) {
+                    constexpr int component[4] = {0, 3, 4, 1}; // rr, rz, zr, zz
+                    const int g = component[j];
+                    points.gradient[j][p] = gradient[0][g];
+                    if constexpr (corners == 4) {
+                        points.gradient[j][p] +=
+                            (xi - centreXi) * gradient[1][g] + (eta - centreEta) * gradient[2][g];
+                    }
+                }
             } else {
+                double rr = 0, zz = 0, rz = 0, zr = 0, hoop = 0;
                 for (int k = 0; k < corners; ++k) {
                     rr += values.dr[k] * vr[k];
                     rz += values.dz[k] * vr[k];
@@ -1698,106 +1697,87 @@ void ExplicitStep<Shape, phases>::mapCellToPoints(State& state, double dt, int c
                     for (int k = 0; k < corners; ++k) {
                         ownLiquid += (values.dr[k] + values.N[k] * inverseR) * wr[k] + values.dz[k] * wz[k];
                     }
+                    ownLiquid = sharedRate ? liquidRate : ownLiquid;
                 }
+                if (affine) {
+                    points.gradient[0][p] = rr;
+                    points.gradient[1][p] = rz;
+                    points.gradient[2][p] = zr;
+                    points.gradient[3][p] = zz;
+                }
+                const double own = rr + zz + hoop;
+                const double trace = sharedRate ? rate : own;
+                const double shift = (trace - own) / 3;
+                strain_[0][p] = dt * (rr + shift);
+                strain_[1][p] = dt * (zz + shift);
+                strain_[2][p] = dt * (hoop + shift);
+                strain_[3][p] = dt * (rz + zr);
+                spin_[p] = 0.5 * dt * (zr - rz);
+                e = dt * trace;
             }
-            if (affine) {
-                points.gradient[0][p] = rr;
-                points.gradient[1][p] = rz;
-                points.gradient[2][p] = zr;
-                points.gradient[3][p] = zz;
-            }
-            const double own = rr + zz + hoop;
-            const double trace = sharedRate ? rate : own;
-            const double shift = (trace - own) / 3;
-            rateSum += trace;
-            strain_[0][p] = dt * (rr + shift);
-            strain_[1][p] = dt * (zz + shift);
-            strain_[2][p] = dt * (hoop + shift);
-            strain_[3][p] = dt * (rz + zr);
-            spin_[p] = 0.5 * dt * (zr - rz);
-            const double e = dt * trace;
+            dilatationSum += e;
+            const double volume = points.volume[p];
             if constexpr (twoPhase) {
                 // Storage [Jassim, Stolle & Vermeer 2013]: p' = -(Kw/n)((1-n) div v + n div w).
-                const double n = porosity(points, p);
-                const double flow = (1 - n) * trace + n * (sharedRate ? liquidRate : ownLiquid);
-                double pressure = points.porePressure[p] +
-                                  (projects() ? pressureStep_[c]
-                                              : -dt * liquid_[points.material[p]].bulkModulus / n * flow);
+                const LiquidProperties& properties = liquid_[points.material[p]];
+                double pressure = points.porePressure[p];
+                if (projects()) {
+                    pressure += pressureStep_[c];
+                } else {
+                    const double inverseN = volume / (volume - points.mass[p] * properties.grainVolume);
+                    pressure -= properties.bulkModulus * ((inverseN - 1) * e + dt * ownLiquid);
+                }
                 if (sharedRate) {
-                    double nodal = 0;
-                    for (int k = 0; k < corners; ++k) {
-                        nodal += values.N[k] * nodalPressure[k];
-                    }
-                    const double height = unitWeight_ * points.z[p];
-                    pressureShape_[p] = nodal + height;
-                    shapeSum += points.volume[p] * nodal;
-                    excessSum += points.volume[p] * (pressure - height);
-                    volumeSum += points.volume[p];
+                    const double shown = ofLiquid[3] + unitWeight_ * points.z[p];
+                    differenceSum += volume * (pressure - shown);
+                    volumeSum += volume;
+                    pressure = shown; // but for its mean
                 }
                 points.porePressure[p] = pressure;
             }
-            points.volume[p] = std::min(points.volume[p] * (1 + e * (1 + 0.5 * e)), // exp(e)
+            points.volume[p] = std::min(volume * (1 + e * (1 + 0.5 * e)), // exp(e)
                                         points.mass[p] * largestVolume_[points.material[p]]);
         }
+        Four moved = values.N[0] * motion[0];
+        for (int k = 1; k < corners; ++k) {
+            moved += values.N[k] * motion[k];
+        }
         if constexpr (velocities) {
-            double changeR = 0, changeZ = 0, placeR = 0, placeZ = 0, newR = 0, newZ = 0;
-            for (int k = 0; k < corners; ++k) {
-                changeR += values.N[k] * dvr[k];
-                changeZ += values.N[k] * dvz[k];
-                placeR += values.N[k] * pr[k];
-                placeZ += values.N[k] * pz[k];
-            }
             double differenceR = 0, differenceZ = 0;
             if constexpr (twoPhase) {
                 // Relative velocities that the nodes do not see are dragged down as theirs are.
-                double kept = 0;
-                for (int k = 0; k < corners; ++k) {
-                    differenceR += values.N[k] * relativeR[k];
-                    differenceZ += values.N[k] * relativeZ[k];
-                    kept += values.N[k] * keep[k];
-                }
-                differenceR += kept * (points.wr[p] - points.vr[p]);
-                differenceZ += kept * (points.wz[p] - points.vz[p]);
+                differenceR = ofLiquid[0] + ofLiquid[2] * (points.wr[p] - points.vr[p]);
+                differenceZ = ofLiquid[1] + ofLiquid[2] * (points.wz[p] - points.vz[p]);
             }
-            if (flip < 1) {
-                for (int k = 0; k < corners; ++k) {
-                    newR += values.N[k] * vr[k];
-                    newZ += values.N[k] * vz[k];
-                }
+            double newR = 0, newZ = 0;
+            for (int k = 0; flip < 1 && k < corners; ++k) {
+                newR += values.N[k] * vr[k];
+                newZ += values.N[k] * vz[k];
             }
-            points.vr[p] = flip * (points.vr[p] + changeR) + (1 - flip) * newR;
-            points.vz[p] = flip * (points.vz[p] + changeZ) + (1 - flip) * newZ;
+            points.vr[p] = flip * (points.vr[p] + moved[0]) + (1 - flip) * newR;
+            points.vz[p] = flip * (points.vz[p] + moved[1]) + (1 - flip) * newZ;
             if constexpr (twoPhase) {
                 points.wr[p] = points.vr[p] + differenceR;
                 points.wz[p] = points.vz[p] + differenceZ;
             }
-            if constexpr (strains) {
-                points.r[p] = r + dt * placeR;
-                points.z[p] += dt * placeZ;
-            }
-        } else {
-            double placeR = 0, placeZ = 0;
-            for (int k = 0; k < corners; ++k) {
-                placeR += values.N[k] * pr[k];
-                placeZ += values.N[k] * pz[k];
-            }
-            points.r[p] = r + dt * placeR;
-            points.z[p] += dt * placeZ;
+        }
+        if constexpr (strains) {
+            points.r[p] = r + dt * moved[2];
+            points.z[p] += dt * moved[3];
         }
     }
     if constexpr (strains && twoPhase) {
         // Where the forces know the mean pressure of a cell alone, its points take their differences from the
         // nodes: left alone they would keep those of their first cells for ever.
-        const double shift = sharedRate ? (excessSum - shapeSum) / volumeSum : 0;
+        const double shift = sharedRate ? differenceSum / volumeSum : 0;
         for (const int* i = first; i != last; ++i) {
             const int p = *i;
-            const double least = liquid_[points.material[p]].leastPressure;
-            const double pressure = sharedRate ? pressureShape_[p] + shift : points.porePressure[p];
-            points.porePressure[p] = std::max(pressure, least);
+            points.porePressure[p] =
+                std::max(points.porePressure[p] + shift, liquid_[points.material[p]].leastPressure);
         }
     }
     if constexpr (strains) {
-        state.cellDivergence[c] = rateSum / static_cast<double>(last - first);
+        state.cellDivergence[c] = dilatationSum / (dt * static_cast<double>(last - first));
     }
 }
 

@@ -483,9 +483,9 @@ void ExplicitStep<Shape, phases>::mapFemEdgeToNodes(int f)
         cornerSums_[c * corners + k] = {mass,
                                         mass * node.vr,
                                         mass * node.vz,
+                                        mass,
                                         force[0] + weight * scene_.gravity[0],
-                                        force[1] + weight * scene_.gravity[1],
-                                        mass};
+                                        force[1] + weight * scene_.gravity[1]};
         if constexpr (twoPhase) {
             const FemLiquidCell& liquid = femLiquidCells_[f];
             const LiquidNode& old = liquidNodes_[i];
@@ -493,12 +493,13 @@ void ExplicitStep<Shape, phases>::mapFemEdgeToNodes(int f)
             liquidCorners_[c * corners + k] = {liquidMass,
                                                liquidMass * (node.vr + old.relativeVr),
                                                liquidMass * (node.vz + old.relativeVz),
-                                               force[2],
-                                               force[3],
                                                liquid.drag[k],
                                                liquid.volume[k],
                                                liquid.poreVolume[k],
-                                               fem_.pressure[f] * liquid.volume[k]};
+                                               fem_.pressure[f] * liquid.volume[k],
+                                               0,
+                                               force[2],
+                                               force[3]};
         }
     }
 }
@@ -841,7 +842,7 @@ void ExplicitStep<Shape, phases>::wakeFemCell(State& state, int c)
         if constexpr (twoPhase) {
             relativeR += kept * (points.wr[p] - points.vr[p]);
             relativeZ += kept * (points.wz[p] - points.vz[p]);
-            pressureShape_[p] = nodalPressure + unitWeight_ * points.z[p];
+            points.porePressure[p] = nodalPressure + unitWeight_ * points.z[p];
             shapeSum += points.volume[p] * nodalPressure;
             volumeSum += points.volume[p];
         }
@@ -860,7 +861,7 @@ void ExplicitStep<Shape, phases>::wakeFemCell(State& state, int c)
         const double shift = fem_.pressure[f] - shapeSum / volumeSum;
         for (const int* i = first; i != last; ++i) {
             points.porePressure[*i] =
-                std::max(pressureShape_[*i] + shift, liquid_[points.material[*i]].leastPressure);
+                std::max(points.porePressure[*i] + shift, liquid_[points.material[*i]].leastPressure);
         }
     }
 }

@@ -57,71 +57,80 @@ void ExplicitStep<Shape, phases>::mapLiquidToNodes(const State& state, int c)
     // Cells away from a surface are full of liquid, whatever their points hold.
     const bool full = scene_.controls.integration == SolutionControls::Integration::mixed && !bySurface_[c];
 
-    LiquidCorner sum[corners] = {};
+    std::array<Four, corners> inertia; // mass, momenta, drag
+    std::array<Four, corners> volumes; // volume, pore volume, excess pressure times volume
+    inertia.fill(0);
+    volumes.fill(0);
+    double forceR[corners] = {};
+    double forceZ[corners] = {};
     double volume = 0, pressureVolume = 0;
     double br[corners] = {};
     double bz[corners] = {};
     double wx = 0, wy = 0, wxx = 0, wyy = 0, wxy = 0, px = 0, py = 0;
     Values values;
-    for (const int* i = pointCells_.begin(c); i != pointCells_.end(c); ++i) {
-        const int p = *i;
-        const auto [x, y] = Shape::evaluate(cell, points.r[p], points.z[p], values);
+    const bool affine = points.affine();
+    // @returns volume and excess pressure of the point
+    const auto add = [&](int p) {
         const LiquidProperties& properties = liquid_[points.material[p]];
-        const double n = porosity(points, p);
         const double v = points.volume[p];
-        const double mass = n * properties.density * v;
-        const double drag = n * n * v *
+        const double pores = v - points.mass[p] * properties.grainVolume;
+        const double mass = properties.density * pores;
+        const double n = pores / v;
+        const double drag = n * pores *
                             (properties.kozenyCarman
                                  ? properties.viscosity / scene_.materials[points.material[p]].permeability(n)
                                  : properties.constantDrag);
         const double pressure = points.porePressure[p] - unitWeight_ * points.z[p];
+        const Four inertiaOfPoint = four(mass, mass * points.wr[p], mass * points.wz[p], drag);
+        const Four volumesOfPoint = four(v, pores, v * pressure, 0);
         for (int k = 0; k < corners; ++k) {
-            const double N = values.N[k];
-            sum[k].mass += N * mass;
-            sum[k].momentumR += N * mass * points.wr[p];
-            sum[k].momentumZ += N * mass * points.wz[p];
-            sum[k].drag += N * drag;
-            sum[k].volume += N * v;
-            sum[k].poreVolume += N * n * v;
+            inertia[k] += values.N[k] * inertiaOfPoint;
+            volumes[k] += values.N[k] * volumesOfPoint;
         }
-        for (int k = 0; points.affine() && k < corners; ++k) { // as of the solid
+        for (int k = 0; affine && k < corners; ++k) { // as of the solid
             const auto [r, z] = affineVelocity(state, p, c * corners + k);
-            sum[k].momentumR += values.N[k] * mass * r;
-            sum[k].momentumZ += values.N[k] * mass * z;
+            inertia[k] += values.N[k] * mass * four(0, r, z, 0);
         }
         volume += v;
         pressureVolume += v * pressure;
-        if (full) {
-            if (corners == 4 && !meanDilatation) {
-                wx += v * x;
-                wy += v * y;
-                wxx += v * x * x;
-                wyy += v * y * y;
-                wxy += v * x * y;
-                px += v * pressure * x;
-                py += v * pressure * y;
-            }
-            continue;
+        return std::array{v, pressure};
+    };
+    const int* const first = pointCells_.begin(c);
+    const int* const last = pointCells_.end(c);
+    for (const int* i = first; full && i != last; ++i) {
+        const auto [x, y] = Shape::evaluate(cell, points.r[*i], points.z[*i], values);
+        const auto [v, pressure] = add(*i);
+        if (corners == 4 && !meanDilatation) {
+            wx += v * x;
+            wy += v * y;
+            wxx += v * x * x;
+            wyy += v * y * y;
+            wxy += v * x * y;
+            px += v * pressure * x;
+            py += v * pressure * y;
         }
-        const double inverseR = axisymmetric ? 1 / std::max(points.r[p], kernels::smallestRadius) : 0;
+    }
+    for (const int* i = first; !full && i != last; ++i) {
+        Shape::evaluate(cell, points.r[*i], points.z[*i], values);
+        const auto [v, pressure] = add(*i);
+        const double inverseR = axisymmetric ? 1 / std::max(points.r[*i], kernels::smallestRadius) : 0;
         for (int k = 0; k < corners; ++k) {
             const double r = v * (values.dr[k] + values.N[k] * inverseR);
             const double z = v * values.dz[k];
             br[k] += r;
             bz[k] += z;
             if (!meanDilatation) {
-                sum[k].forceR += pressure * r;
-                sum[k].forceZ += pressure * z;
+                forceR[k] += pressure * r;
+                forceZ[k] += pressure * z;
             }
-            sum[k].pressureVolume += values.N[k] * v * pressure;
         }
     }
     const double mean = pressureVolume / volume;
     if (full) {
         const auto& dilatation = dilatation_[c];
         for (int k = 0; k < corners; ++k) {
-            sum[k].forceR = dilatation.volume * mean * dilatation.br[k];
-            sum[k].forceZ = dilatation.volume * mean * dilatation.bz[k];
+            forceR[k] = dilatation.volume * mean * dilatation.br[k];
+            forceZ[k] = dilatation.volume * mean * dilatation.bz[k];
         }
         if constexpr (corners == 4) {
             if (!meanDilatation) { // slopes as of the stress (mapCellToNodes)
@@ -135,18 +144,17 @@ void ExplicitStep<Shape, phases>::mapLiquidToNodes(const State& state, int c)
                 const double slope[3] = {0, spread.slopeXi(cx, cy), spread.slopeEta(cx, cy)};
                 for (int j = 1; j < 3; ++j) {
                     for (int k = 0; k < corners; ++k) {
-                        sum[k].forceR += m.volume * slope[j] * (m.gr[j][k] + m.h[j][k]);
-                        sum[k].forceZ += m.volume * slope[j] * m.gz[j][k];
+                        forceR[k] += m.volume * slope[j] * (m.gr[j][k] + m.h[j][k]);
+                        forceZ[k] += m.volume * slope[j] * m.gz[j][k];
                     }
                 }
             }
         }
         // The force takes the whole cell, so mean pressure and porosity of a node do, too.
         const double whole = dilatation.volume / volume;
-        for (int k = 0; k < corners; ++k) {
-            sum[k].poreVolume *= whole;
-            sum[k].volume *= whole;
-            sum[k].pressureVolume = mean * sum[k].volume;
+        for (Four& ofCorner : volumes) {
+            ofCorner *= whole;
+            ofCorner[2] = mean * ofCorner[0];
         }
     } else {
         for (int k = 0; projects() && k < corners; ++k) {
@@ -155,8 +163,8 @@ void ExplicitStep<Shape, phases>::mapLiquidToNodes(const State& state, int c)
         const double beyond = freeSurface_[c] >= 0 && bySurface_[c] ? surfacePressure_[freeSurface_[c]] : 0;
         for (int k = 0; k < corners; ++k) {
             if (meanDilatation) {
-                sum[k].forceR += mean * br[k];
-                sum[k].forceZ += mean * bz[k];
+                forceR[k] += mean * br[k];
+                forceZ[k] += mean * bz[k];
             }
             if (pumped_) {
                 const bool open = freeSurface_[c] >= 0 && bySurface_[c];
@@ -165,41 +173,41 @@ void ExplicitStep<Shape, phases>::mapLiquidToNodes(const State& state, int c)
                     open ? dilatation_[c].volume * dilatation_[c].bz[k] - bz[k] : 0};
             }
             if (beyond != 0) { // the rest of the cell holds the water of the free surface
-                sum[k].forceR += beyond * (dilatation_[c].volume * dilatation_[c].br[k] - br[k]);
-                sum[k].forceZ += beyond * (dilatation_[c].volume * dilatation_[c].bz[k] - bz[k]);
+                forceR[k] += beyond * (dilatation_[c].volume * dilatation_[c].br[k] - br[k]);
+                forceZ[k] += beyond * (dilatation_[c].volume * dilatation_[c].bz[k] - bz[k]);
             }
         }
     }
-    if (resting(c) && femCells_[femOf_[c]].restedBefore) {
-        for (int k = 0; k < corners; ++k) {
+    const int f = resting(c) ? femOf_[c] : -1;
+    double poreVolume = 0;
+    double wholeVolume = 0;
+    for (int k = 0; f >= 0 && k < corners; ++k) {
+        FemLiquidCell& fem = femLiquidCells_[f];
+        const double mass = inertia[k][0];
+        fem.mass[k] = fullness_[c] * mass;
+        fem.drag[k] = fullness_[c] * inertia[k][3];
+        fem.volume[k] = volumes[k][0];
+        fem.poreVolume[k] = volumes[k][1];
+        wholeVolume += volumes[k][0];
+        poreVolume += volumes[k][1];
+        if (femCells_[f].restedBefore) {
             const int i = cellNodes_[c * corners + k];
-            sum[k].momentumR = sum[k].mass * (nodes_[i].vr + liquidNodes_[i].relativeVr);
-            sum[k].momentumZ = sum[k].mass * (nodes_[i].vz + liquidNodes_[i].relativeVz);
+            inertia[k] = four(mass, mass * (nodes_[i].vr + liquidNodes_[i].relativeVr),
+                              mass * (nodes_[i].vz + liquidNodes_[i].relativeVz), inertia[k][3]);
         }
     }
+    if (f >= 0) {
+        fem_.pressure[f] = mean;
+        fem_.porosity[f] = poreVolume / wholeVolume;
+    }
+    const double scaled = inertiaScale_[c] * fullness_[c];
+    const Four scale = four(scaled, scaled, scaled, fullness_[c]);
     LiquidCorner* const out = &liquidCorners_[c * corners];
     for (int k = 0; k < corners; ++k) {
-        out[k] = sum[k];
-        const double inertia = inertiaScale_[c] * fullness_[c];
-        out[k].mass *= inertia;
-        out[k].momentumR *= inertia;
-        out[k].momentumZ *= inertia;
-        out[k].drag *= fullness_[c];
-    }
-    if (resting(c)) {
-        FemLiquidCell& fem = femLiquidCells_[femOf_[c]];
-        double poreVolume = 0;
-        double wholeVolume = 0;
-        for (int k = 0; k < corners; ++k) {
-            fem.mass[k] = fullness_[c] * sum[k].mass;
-            fem.drag[k] = fullness_[c] * sum[k].drag;
-            fem.volume[k] = sum[k].volume;
-            fem.poreVolume[k] = sum[k].poreVolume;
-            poreVolume += sum[k].poreVolume;
-            wholeVolume += sum[k].volume;
-        }
-        fem_.pressure[femOf_[c]] = mean;
-        fem_.porosity[femOf_[c]] = poreVolume / wholeVolume;
+        setFour(out[k].mass, scale * inertia[k]);
+        setFour(out[k].volume, volumes[k]);
+        out[k].forceR = forceR[k];
+        out[k].forceZ = forceZ[k];
     }
 }
 
@@ -257,25 +265,6 @@ void ExplicitStep<Shape, phases>::pump(State& state, double dt)
         }
         state.pumped[s] += dt * (inflow - given.value(state.time)) / surface.compliance;
     }
-}
-
-template <class Shape, int phases>
-typename ExplicitStep<Shape, phases>::LiquidCorner ExplicitStep<Shape, phases>::gatherLiquid(int i) const
-{
-    LiquidCorner sum{};
-    for (int k = nodeCorners_.start[i]; k < nodeCorners_.start[i + 1]; ++k) {
-        const LiquidCorner& corner = liquidCorners_[nodeCorners_.item[k]];
-        sum.mass += corner.mass;
-        sum.momentumR += corner.momentumR;
-        sum.momentumZ += corner.momentumZ;
-        sum.forceR += corner.forceR;
-        sum.forceZ += corner.forceZ;
-        sum.drag += corner.drag;
-        sum.volume += corner.volume;
-        sum.poreVolume += corner.poreVolume;
-        sum.pressureVolume += corner.pressureVolume;
-    }
-    return sum;
 }
 
 template <class Shape, int phases>
