@@ -106,17 +106,17 @@ private:
     template <class OfCorner>
     [[nodiscard]] OfCorner gather(const std::vector<OfCorner>& ofCorners, int i) const
     {
-        constexpr int fours = sizeof(OfCorner) / (4 * sizeof(double));
+        constexpr std::size_t fours = sizeof(OfCorner) / (4 * sizeof(double));
         std::array<Four, fours> sums;
         sums.fill(0);
         for (int k = nodeCorners_.start[i]; k < nodeCorners_.start[i + 1]; ++k) {
             const double* const ofCorner = &ofCorners[nodeCorners_.item[k]].mass;
-            for (int j = 0; j < fours; ++j) {
+            for (std::size_t j = 0; j < fours; ++j) {
                 sums[j] += fourFrom(ofCorner[4 * j]);
             }
         }
         OfCorner sum;
-        for (int j = 0; j < fours; ++j) {
+        for (std::size_t j = 0; j < fours; ++j) {
             setFour((&sum.mass)[4 * j], sums[j]);
         }
         return sum;

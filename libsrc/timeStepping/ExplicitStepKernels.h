@@ -1605,7 +1605,7 @@ void ExplicitStep<Shape, phases>::mapCellToPoints(State& state, double dt, int c
                 const double(&g)[5] = gradient[i];
                 const double own = g[0] + g[1] + g[2];
                 const double taken = !sharedRate ? own : i == 0 ? rate : 0.0;
-                const double shift = (taken - own) / 3;
+                const double shift = (taken - own) * (1.0 / 3);
                 strain[i] = dt * four(g[0] + shift, g[1] + shift, g[2] + shift, g[3] + g[4]);
                 spin[i] = 0.5 * dt * (g[4] - g[3]);
                 dilatation[i] = dt * taken;
