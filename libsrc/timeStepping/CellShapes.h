@@ -112,10 +112,10 @@ template <class Real>
 template <class Real>
 Real zero()
 {
-    if constexpr (std::is_same_v<Real, double>) {
-        return 0;
-    } else {
+    if constexpr (requires { Real::Zero(); }) {
         return Real::Zero();
+    } else {
+        return Real(0);
     }
 }
 
@@ -199,10 +199,13 @@ struct Rectangle
     static constexpr bool isAxisymmetric = axisymmetric;
     static constexpr int lanes = 8; ///< cells whose integrals are computed together
 
-    struct Cell
+    /// Of one cell, or of several that are computed together.
+    template <class Real>
+    struct Sides
     {
-        double r0, z0, dr, dz, invDr, invDz;
+        Real r0, z0, dr, dz, invDr, invDz;
     };
+    using Cell = Sides<double>;
 
     /// The integrals of the strain operator are made of these.
     template <class Real>
@@ -215,12 +218,17 @@ struct Rectangle
         Real inverseInertia;
     };
 
-    static Integrals<double> integrals(const Cell& c)
+    template <class Real>
+    [[gnu::always_inline]] static Integrals<Real> integrals(const Sides<Real>& c)
     {
-        const double radius = axisymmetric ? c.r0 + 0.5 * c.dr : 1;
-        const double inverseR = axisymmetric ? 1 / radius : 0;
-        const double xiCentre = c.dr / 6 * inverseR;
-        const double inertiaXi = 1.0 / 3 - xiCentre * xiCentre;
+        Real radius = zero<Real>() + 1;
+        Real inverseR = zero<Real>();
+        if constexpr (axisymmetric) {
+            radius = c.r0 + 0.5 * c.dr;
+            inverseR = 1 / radius;
+        }
+        const Real xiCentre = c.dr * inverseR * (1.0 / 6);
+        const Real inertiaXi = 1.0 / 3 - xiCentre * xiCentre;
         return {2 * c.invDr, 2 * c.invDz,  0.25 * c.dr * c.dz * radius, inverseR, xiCentre,
                 inertiaXi,   1 / inertiaXi};
     }
@@ -333,7 +341,11 @@ struct Rectangle
     }
 
     /// dz/dxi and dz/deta.
-    static std::array<double, 2> heightSlopes(const Cell& c) { return {0, 0.5 * c.dz}; }
+    template <class Real>
+    static std::array<Real, 2> heightSlopes(const Sides<Real>& c)
+    {
+        return {zero<Real>(), 0.5 * c.dz};
+    }
 
     /// Mean of N at the corners.
     static std::array<double, 4> cornerShares(const Cell& c)
@@ -402,8 +414,9 @@ struct Rectangle
         g[2][3] = g[1][0];
         g[2][4] = c.twoR * b3;
     }
-    [[gnu::always_inline]] static void velocityGradient(const Cell& c, const double* vr, const double* vz,
-                                                        VelocityGradient<4>& g)
+    template <class Real>
+    [[gnu::always_inline]] static void velocityGradient(const Sides<Real>& c, const Real* vr, const Real* vz,
+                                                        VelocityGradient<4, Real>& g)
     {
         velocityGradient(integrals(c), vr, vz, g);
     }
@@ -435,8 +448,9 @@ struct Rectangle
              c.twoZ * (c.xiCentre * s[0][1] + c.inertiaXi * s[1][1]) + c.twoR * s[2][3] * (1.0 / 3)},
             forceZ);
     }
-    [[gnu::always_inline]] static void addForces(const Cell& c, const StressField<4>& s, double* forceR,
-                                                 double* forceZ)
+    template <class Real>
+    [[gnu::always_inline]] static void addForces(const Sides<Real>& c, const StressField<4, Real>& s,
+                                                 Real* forceR, Real* forceZ)
     {
         addForces(integrals(c), s, forceR, forceZ);
     }
@@ -460,7 +474,7 @@ struct Rectangle
     /// Extent used for the stable step [m]: see quadrilateralStep.
     static double size(const Cell& c) { return quadrilateralStep * std::min(c.dr, c.dz); }
 
-private:
+    /// Values at the corners as a0 + a1 xi + a2 eta + a3 xi eta.
     template <class Real>
     [[gnu::always_inline]] static std::array<Real, 4> modes(const Real* v)
     {
@@ -472,6 +486,18 @@ private:
                 0.25 * (upperSlope - lowerSlope)};
     }
 
+    /// Sums of N times a quantity at the corners, from those of the quantity times 1, xi, eta and xi eta.
+    template <class Real>
+    [[gnu::always_inline]] static std::array<Real, 4> cornerSums(const std::array<Real, 4>& sums)
+    {
+        const Real even = 0.25 * (sums[0] + sums[3]);
+        const Real odd = 0.25 * (sums[0] - sums[3]);
+        const Real both = 0.25 * (sums[1] + sums[2]);
+        const Real difference = 0.25 * (sums[1] - sums[2]);
+        return {even - both, odd + difference, even + both, odd - difference};
+    }
+
+private:
     template <class Real>
     [[gnu::always_inline]] static void addModes(const Real& factor, const std::array<Real, 4>& a, Real* force)
     {

@@ -2,7 +2,7 @@
 
 #include "mesh/CellLocator.h"
 #include "timeStepping/CellShapes.h"
-#include "timeStepping/Four.h"
+#include "timeStepping/FourPoints.h"
 #include "timeStepping/PointBox.h"
 #include "timeStepping/PointCells.h"
 #include "timeStepping/PressureSolver.h"
@@ -23,6 +23,36 @@ struct Fit
     [[nodiscard]] double at(double x, double y) const
     {
         return 1 + slopeXi * (x - xi) + slopeEta * (y - eta);
+    }
+};
+
+/// Sums over the points of a filled cell, or of several: of their volume, times 1, xi and eta and products of
+/// these, and of the volume times stress, times 1, xi and eta.
+template <class Real>
+struct alignas(4 * sizeof(double)) StressSums
+{
+    Real w, wx, wy, wxy;
+    Real s[4], sx[4], sy[4];
+    Real wxx, wyy, none[2];
+
+    /// Of `count` cells; the last one again where they are fewer than the lanes.
+    [[nodiscard]] static StressSums of(const StressSums<double>* sums, int count)
+    {
+        if constexpr (std::is_same_v<Real, double>) {
+            return *sums;
+        } else {
+            StressSums result;
+            Real* const to = &result.w;
+            for (int j = 0; j < static_cast<int>(sizeof(StressSums<double>) / sizeof(double)); j += 4) {
+                std::array<Four, 4> rows;
+                for (int l = 0; l < 4; ++l) {
+                    rows[l] = fourFrom((&sums[std::min(l, count - 1)].w)[j]);
+                }
+                transpose(rows);
+                std::ranges::copy(rows, to + j);
+            }
+            return result;
+        }
     }
 };
 
@@ -59,6 +89,7 @@ private:
     static constexpr bool axisymmetric = Shape::isAxisymmetric;
     static constexpr bool twoPhase = phases == 2;
     static constexpr bool hasBoxes = Shape::corners == 4 && !twoPhase;
+    static constexpr bool hasFours = Shape::lanes > 1; ///< RectangleKernels.h
     // Pieces of work that a thread takes at a time
     static constexpr int cellsPerPiece = 16;
     static constexpr int nodesPerPiece = 128;
@@ -147,6 +178,28 @@ private:
 
         /// What the points take over: changes of the relative velocity but for drag, keep, pressure.
         [[nodiscard]] Four motion() const { return fourFrom(relativeVr) - keep * fourFrom(oldRelativeVr); }
+    };
+
+    /// What the points of a cell see of its nodes.
+    struct CornerMotion
+    {
+        double vr[corners], vz[corners];
+        double wr[corners], wz[corners];        ///< of the liquid
+        std::array<Four, corners> motion;       ///< Node::motion
+        std::array<Four, corners> liquidMotion; ///< LiquidNode::motion
+    };
+
+    /// Mean and slopes over a filled cell, about the points' centre.
+    struct FilledStrain
+    {
+        alignas(4 * sizeof(double)) double strain[momentCount][4]; ///< with the dilatation that is taken
+        double spin[momentCount];
+        double dilatation[momentCount]; ///< the one that is taken
+        double rate;                    ///< of dilatation, shared by the points
+        double liquidRate;              ///< of the liquid's velocity, likewise
+        double liquidGradient[3];
+        double centreXi, centreEta;
+        shapes::VelocityGradient<corners> gradient; ///< rr, zz, hoop, v_r,z, v_z,r
     };
 
     /// By which velocities a pressure increment moves a node (ProjectionKernels.h): along a direction and
@@ -285,7 +338,21 @@ private:
     void filterPressures(State& state);
     void staggerStrain(State& state, double dt);
     void mapToNodes(State& state);
-    void mapCellToNodes(State& state, int c);
+    template <class Real>
+    [[nodiscard]] auto cellLanes(const int* cells, int count) const;
+    void sumPoints(const State& state, int c, kernels::StressSums<double>& sums);
+    template <class Real>
+    void addStress(const State& state, const int* cells, int count, const kernels::StressSums<double>* sums);
+    template <class May, class Alone, class Together>
+    void forPieces(const WorkList& list, const May& may, const Alone& alone, const Together& together) const;
+    [[nodiscard]] bool mayTakeFours() const;
+    double sumLiquidByFours(const MaterialPoints& points, int c, std::array<Four, corners>& inertia,
+                            std::array<Four, corners>& volumes) const
+        requires hasFours;
+    void moveByFours(State& state, double dt, int c, const FilledStrain& strain)
+        requires hasFours;
+    void strainByFours(const int* cells, int count, double dt, FilledStrain* strains) const
+        requires hasFours;
     [[nodiscard]] double viscousStress(const State& state, int c, int material) const;
     [[nodiscard]] std::array<double, 2> pointLoad(const MaterialPoints& points, int p) const;
     void addPointLoads(const State& state, int c);
@@ -359,6 +426,8 @@ private:
     }
     template <bool velocities, bool strains>
     void mapCellToPoints(State& state, double dt, int c);
+    [[nodiscard]] CornerMotion cornerMotion(int c) const;
+    [[nodiscard]] FilledStrain strainOfFilled(int c, const CornerMotion& motion, double dt) const;
     void addRemappedMomentum(const State& state, int c);
     void remapMomentum(const State& state, int c);
     [[nodiscard]] std::array<double, 2> affineVelocity(const State& state, int p, int corner) const;
@@ -379,6 +448,7 @@ private:
     }
     void wakeBesideBodies();
     void numberFemNodes();
+    void sampleFemCell(int c);
     void sumInnerNodes();
     void mapFemCellsToNodes(const State& state);
     template <class Real>
@@ -438,6 +508,7 @@ private:
     std::vector<double> solidShare_; ///< per material: of the solid in the inertial density; 1 of one phase
 
     PointCells pointCells_;
+    bool byFours_ = false; ///< points of filled cells are computed four at a time
     std::vector<unsigned char> occupied_;
     std::vector<unsigned char> surfaceNode_; ///< touches an empty cell that is no body's
     std::vector<unsigned char> bySurface_;   ///< per cell: has a surface node

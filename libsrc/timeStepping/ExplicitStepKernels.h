@@ -48,28 +48,112 @@ inline int firstCorner(const BackgroundMesh& mesh, int cell)
 /// Second moments of the points of a cell about their centre, in local coordinates, and the slopes over the
 /// cell of a quantity with the first moments cx, cy. The ridge keeps slopes from being extrapolated out of a
 /// cluster of points.
+template <class Real>
 struct Spread
 {
-    static constexpr double ridge = 0.02;
-
-    Spread(double inXi, double inEta, double mixed)
+    Spread(const Real& inXi, const Real& inEta, const Real& mixed)
         : xx(inXi), yy(inEta), xy(mixed), inverse(1 / ((xx + ridge) * (yy + ridge) - xy * xy))
     {
     }
 
-    template <class Real>
     [[nodiscard]] Real slopeXi(const Real& cx, const Real& cy) const
     {
         return cx * ((yy + ridge) * inverse) - cy * (xy * inverse);
     }
-    template <class Real>
     [[nodiscard]] Real slopeEta(const Real& cx, const Real& cy) const
     {
         return cy * ((xx + ridge) * inverse) - cx * (xy * inverse);
     }
+    /// Shares of the slopes of a stress that the points show.
+    [[nodiscard]] Real shareXi() const { return xx / (xx + ridge); }
+    [[nodiscard]] Real shareEta() const { return yy / (yy + ridge); }
 
-    double xx, yy, xy, inverse; ///< moments; 1 over their determinant
+    Real xx, yy, xy, inverse; ///< moments; 1 over their determinant
+
+private:
+    static constexpr double ridge = 0.02;
 };
+
+/// The stress of a filled cell, or of several: mean and slopes, from the sums over its points.
+template <int corners, class Real>
+struct FilledStress
+{
+    Real inverse;           ///< 1 over the volume of the points
+    Real xi, eta;           ///< centre of the points
+    Real shareXi, shareEta; ///< see Spread
+    shapes::StressField<corners, Real> field;
+};
+
+/// Strain increments rr zz hoop rz and spin of a velocity gradient, with another dilatation rate.
+template <class Real>
+[[gnu::always_inline]] inline void strainOf(const Real (&gradient)[5], const Real& rate, double dt,
+                                            Real (&strain)[4], Real& spin)
+{
+    const Real shift = (rate - (gradient[0] + gradient[1] + gradient[2])) * (1.0 / 3);
+    for (int j = 0; j < 3; ++j) {
+        strain[j] = dt * (gradient[j] + shift);
+    }
+    strain[3] = dt * (gradient[3] + gradient[4]);
+    spin = 0.5 * dt * (gradient[4] - gradient[3]);
+}
+
+/// What varies over a cell at rest is known from its weight, wherever the points are: only the rest is taken
+/// from them. `rise` is that of the height with xi and eta, `fullWeight` per volume. With a shared dilatation
+/// the mean stress works on the mean dilatation alone.
+template <int corners, class Real>
+[[gnu::always_inline]] inline FilledStress<corners, Real>
+filledStress(const StressSums<Real>& sums, const std::array<Real, 2>& rise, const Real& fullWeight,
+             const Real& viscous, bool shared, const std::array<Real, 2>* centre)
+{
+    using std::max, std::min;
+    FilledStress<corners, Real> result;
+    result.inverse = 1 / sums.w;
+    Real mean[4];
+    for (int j = 0; j < 4; ++j) {
+        mean[j] = sums.s[j] * result.inverse;
+        result.field[0][j] = mean[j];
+    }
+    if constexpr (corners == 4) {
+        const Real zero = shapes::zero<Real>();
+        const Real one = zero + 1;
+        const Real halfRise = max(max(rise[0], -rise[0]), max(rise[1], -rise[1]));
+        // Soil that carries less than half a cell of itself is not at rest.
+        const Real push = max(-(mean[1] + viscous), zero + std::numeric_limits<double>::min());
+        const Real weight = min(push / halfRise, max(fullWeight, zero));
+        const Real ratio = max(zero, min(one, -(mean[0] + viscous) / push));
+        const Real known[4] = {ratio * weight, weight, ratio * weight, zero};
+        const Real x = sums.wx * result.inverse;
+        const Real y = sums.wy * result.inverse;
+        const Spread<Real> spread(sums.wxx * result.inverse - x * x, sums.wyy * result.inverse - y * y,
+                                  sums.wxy * result.inverse - x * y);
+        for (int j = 0; j < 4; ++j) {
+            const Real knownXi = known[j] * rise[0];
+            const Real knownEta = known[j] * rise[1];
+            const Real cx =
+                sums.sx[j] * result.inverse - x * mean[j] - knownXi * spread.xx - knownEta * spread.xy;
+            const Real cy =
+                sums.sy[j] * result.inverse - y * mean[j] - knownXi * spread.xy - knownEta * spread.yy;
+            result.field[0][j] -= knownXi * x + knownEta * y;
+            result.field[1][j] = spread.slopeXi(cx, cy) + knownXi;
+            result.field[2][j] = spread.slopeEta(cx, cy) + knownEta;
+            if (centre) { // from that of the points to that of the cell
+                result.field[0][j] -= (result.field[1][j] - knownXi) * (x - (*centre)[0]) +
+                                      (result.field[2][j] - knownEta) * (y - (*centre)[1]);
+            }
+        }
+        for (int i = 1; shared && i < 3; ++i) {
+            const Real third = (result.field[i][0] + result.field[i][1] + result.field[i][2]) * (1.0 / 3);
+            for (int j = 0; j < 3; ++j) {
+                result.field[i][j] -= third;
+            }
+        }
+        result.xi = x;
+        result.eta = y;
+        result.shareXi = spread.shareXi();
+        result.shareEta = spread.shareEta();
+    }
+    return result;
+}
 
 inline Four stressOf(const MaterialPoints& points, int p)
 {
@@ -169,6 +253,7 @@ ExplicitStep<Shape, phases>::ExplicitStep(const Scene& scene, State& state)
         component.resize(scene.controls.affine ? state.points.size() : 0, 0);
     }
     pointCentre_.resize(cells);
+    byFours_ = mayTakeFours();
     if (scene.controls.fittedWeights) {
         fit_.resize(cells);
         byPartial_.resize(cells);
@@ -1032,7 +1117,7 @@ double ExplicitStep<Shape, phases>::viscousStress(const State& state, int c, int
 }
 
 template <class Shape, int phases>
-void ExplicitStep<Shape, phases>::mapCellToNodes(State& state, int c)
+void ExplicitStep<Shape, phases>::sumPoints(const State& state, int c, kernels::StressSums<double>& sums)
 {
     const MaterialPoints& points = state.points;
     const typename Shape::Cell& cell = cells_[c];
@@ -1040,7 +1125,6 @@ void ExplicitStep<Shape, phases>::mapCellToNodes(State& state, int c)
     const int* const first = pointCells_.begin(c);
     const int* const last = pointCells_.end(c);
 
-    const double viscousStress = this->viscousStress(state, c, points.material[*first]);
     std::array<Four, corners> inertia; // mass, momenta, weight over gravity
     inertia.fill(0);
     Values values;
@@ -1066,93 +1150,40 @@ void ExplicitStep<Shape, phases>::mapCellToNodes(State& state, int c)
 
     double forceR[corners] = {}; // of the stress
     double forceZ[corners] = {};
-    const int f = resting(c) ? femOf_[c] : -1;
     if (state.filled[c]) {
-        // The points' stresses as mean and slopes over the cell, weighted with volume.
-        double w = 0, wx = 0, wy = 0, wxx = 0, wyy = 0, wxy = 0;
-        Four s = 0, sx = 0, sy = 0;
+        sums = {};
+        Four stressSum = 0, ofXi = 0, ofEta = 0;
         for (const int* i = first; i != last; ++i) {
             const int p = *i;
             const auto [x, y] = Shape::evaluate(cell, points.r[p], points.z[p], values);
             addInertiaAndWeight(p, x, y);
             const double v = points.volume[p];
             const Four ofPoint = v * kernels::stressOf(points, p);
-            w += v;
-            s += ofPoint;
+            sums.w += v;
+            stressSum += ofPoint;
             if constexpr (corners == 4) {
                 const double vx = v * x;
                 const double vy = v * y;
-                wx += vx;
-                wy += vy;
-                wxx += vx * x;
-                wyy += vy * y;
-                wxy += vx * y;
-                sx += x * ofPoint;
-                sy += y * ofPoint;
+                sums.wx += vx;
+                sums.wy += vy;
+                sums.wxx += vx * x;
+                sums.wyy += vy * y;
+                sums.wxy += vx * y;
+                ofXi += x * ofPoint;
+                ofEta += y * ofPoint;
             }
         }
-        const double inverse = 1 / w;
-        fullness_[c] = dilatation_[c].volume * inverse;
-        alignas(32) shapes::StressField<corners> field;
-        const Four mean = s * inverse;
-        Four stress = mean;
-        if constexpr (corners == 4) {
-            // What varies over a cell at rest is known from its weight, wherever the points are: only the
-            // rest is taken from them.
-            const int material = points.material[*first];
-            const auto [riseXi, riseEta] = Shape::heightSlopes(cell);
-            const double fullWeight = -scene_.gravity[1] * gravityShare_[material] * density_[material];
-            const double halfRise = std::max(std::abs(riseXi), std::abs(riseEta));
-            // Soil that carries less than half a cell of itself is not at rest.
-            const double radial = mean[0] + viscousStress;
-            const double vertical = mean[1] + viscousStress;
-            const double weight = std::clamp(-vertical / halfRise, 0.0, std::max(fullWeight, 0.0));
-            const double ratio = vertical < 0 ? std::clamp(radial / vertical, 0.0, 1.0) : 0.0;
-            const Four known = four(ratio * weight, weight, ratio * weight, 0);
-            const Four knownXi = known * riseXi;
-            const Four knownEta = known * riseEta;
-            const double x = wx * inverse;
-            const double y = wy * inverse;
-            pointCentre_[c] = {x, y};
-            const kernels::Spread spread(wxx * inverse - x * x, wyy * inverse - y * y, wxy * inverse - x * y);
-            const Four cx = sx * inverse - x * mean - knownXi * spread.xx - knownEta * spread.xy;
-            const Four cy = sy * inverse - y * mean - knownXi * spread.xy - knownEta * spread.yy;
-            Four slopeXi = spread.slopeXi(cx, cy) + knownXi;
-            Four slopeEta = spread.slopeEta(cx, cy) + knownEta;
-            stress -= knownXi * x + knownEta * y;
-            if (fitted) { // from the points' centre to that of the cell
-                stress -=
-                    (slopeXi - knownXi) * (x - Shape::moments(cell).xiCentre) + (slopeEta - knownEta) * y;
-            }
-            if (meanDilatation) { // the mean stress works on the mean dilatation alone
-                constexpr double third = 1.0 / 3;
-                const double dx = third * (slopeXi[0] + slopeXi[1] + slopeXi[2]);
-                const double dy = third * (slopeEta[0] + slopeEta[1] + slopeEta[2]);
-                slopeXi -= four(dx, dx, dx, 0);
-                slopeEta -= four(dy, dy, dy, 0);
-            }
-            if (f >= 0) {
-                fem_.shareXi[f] = spread.xx / (spread.xx + kernels::Spread::ridge);
-                fem_.shareEta[f] = spread.yy / (spread.yy + kernels::Spread::ridge);
-                for (int j = 0; j < 4; ++j) {
-                    fem_.slopeXi[j][f] = slopeXi[j];
-                    fem_.slopeEta[j][f] = slopeEta[j];
-                }
-            }
-            setFour(field[1][0], slopeXi);
-            setFour(field[2][0], slopeEta);
-        }
-        setFour(field[0][0], stress + four(viscousStress, viscousStress, viscousStress, 0));
-        Shape::addForces(cell, field, forceR, forceZ);
-        for (int j = 0; f >= 0 && j < 4; ++j) {
-            fem_.stress[j][f] = stress[j];
-        }
+        setFour(sums.s[0], stressSum);
+        setFour(sums.sx[0], ofXi);
+        setFour(sums.sy[0], ofEta);
+        fullness_[c] = dilatation_[c].volume / sums.w;
     } else {
         fullness_[c] = 1;
         double br[corners] = {};
         double bz[corners] = {};
         double volume = 0;
         double pressureVolume = 0;
+        const double viscousStress = this->viscousStress(state, c, points.material[*first]);
         for (const int* i = first; i != last; ++i) {
             const int p = *i;
             Shape::evaluate(cell, points.r[p], points.z[p], values);
@@ -1190,14 +1221,6 @@ void ExplicitStep<Shape, phases>::mapCellToNodes(State& state, int c)
         }
     }
 
-    for (int k = 0; f >= 0 && k < corners; ++k) {
-        const double mass = inertia[k][0];
-        femCells_[f].mass[k] = fullness_[c] * mass;
-        if (femCells_[f].restedBefore) {
-            const Node& node = nodes_[cellNodes_[c * corners + k]];
-            inertia[k] = four(mass, mass * node.vr, mass * node.vz, inertia[k][3]);
-        }
-    }
     const std::array<double, corners> share = Shape::cornerShares(cell);
     const double scale = inertiaScale_[c] * fullness_[c];
     const double gravityR = scene_.gravity[0] * fullness_[c];
@@ -1211,6 +1234,95 @@ void ExplicitStep<Shape, phases>::mapCellToNodes(State& state, int c)
         out[k].fullMass = fullMass * share[k];
         out[k].forceR = forceR[k] + gravityR * weight;
         out[k].forceZ = forceZ[k] + gravityZ * weight;
+    }
+}
+
+/// What the shape needs of `count` cells; of the last one again where they are fewer than the lanes.
+template <class Shape, int phases>
+template <class Real>
+auto ExplicitStep<Shape, phases>::cellLanes(const int* cells, int count) const
+{
+    if constexpr (std::is_same_v<Real, double>) {
+        return cells_[*cells];
+    } else {
+        std::array<Four, 4> corner, sides; // r0, z0, dr, dz; dr, dz and 1 over them
+        for (int l = 0; l < 4; ++l) {
+            const typename Shape::Cell& cell = cells_[cells[std::min(l, count - 1)]];
+            corner[l] = Four(&cell.r0, std::experimental::element_aligned);
+            sides[l] = Four(&cell.dr, std::experimental::element_aligned);
+        }
+        transpose(corner);
+        transpose(sides);
+        return typename Shape::template Sides<Real>{corner[0], corner[1], sides[0],
+                                                    sides[1],  sides[2],  sides[3]};
+    }
+}
+
+/// Puts the stress of `count` filled cells on their corners.
+template <class Shape, int phases>
+template <class Real>
+void ExplicitStep<Shape, phases>::addStress(const State& state, const int* cells, int count,
+                                            const kernels::StressSums<double>* sums)
+{
+    const SolutionControls& controls = scene_.controls;
+    const MaterialPoints& points = state.points;
+    const auto material = [&](int l) { return points.material[*pointCells_.begin(cells[l])]; };
+    Real fullWeight = shapes::zero<Real>();
+    Real viscous = shapes::zero<Real>();
+    for (int l = 0; l < count; ++l) {
+        shapes::setLane(fullWeight, l,
+                        -scene_.gravity[1] * gravityShare_[material(l)] * density_[material(l)]);
+        if (controls.linearBulkViscosity != 0 || controls.quadraticBulkViscosity != 0) {
+            shapes::setLane(viscous, l, viscousStress(state, cells[l], material(l)));
+        }
+    }
+    const auto cell = cellLanes<Real>(cells, count);
+    std::array<Real, 2> centre{};
+    bool atCentre = false;
+    if constexpr (corners == 4 && std::is_same_v<Real, double>) {
+        atCentre = fits(*cells);
+        centre[0] = atCentre ? Shape::moments(cell).xiCentre : 0;
+    }
+    std::array<Real, 2> rise{};
+    if constexpr (corners == 4) {
+        rise = Shape::heightSlopes(cell);
+    }
+    auto stress = kernels::filledStress<corners, Real>(
+        kernels::StressSums<Real>::of(sums, count), rise, fullWeight, viscous,
+        controls.locking == SolutionControls::Locking::meanDilatation, atCentre ? &centre : nullptr);
+    for (int l = 0; l < count; ++l) {
+        const int c = cells[l];
+        if constexpr (corners == 4) {
+            pointCentre_[c] = {shapes::lane(stress.xi, l), shapes::lane(stress.eta, l)};
+        }
+        for (int i = 0; resting(c) && i < momentCount; ++i) {
+            auto& to = i == 0 ? fem_.stress : i == 1 ? fem_.slopeXi : fem_.slopeEta;
+            for (int j = 0; j < 4; ++j) {
+                to[j][femOf_[c]] = shapes::lane(stress.field[i][j], l);
+            }
+            fem_.shareXi[femOf_[c]] = shapes::lane(stress.shareXi, l);
+            fem_.shareEta[femOf_[c]] = shapes::lane(stress.shareEta, l);
+        }
+    }
+    for (int j = 0; j < 3; ++j) {
+        stress.field[0][j] += viscous;
+    }
+    Real forceR[corners], forceZ[corners];
+    std::fill_n(forceR, corners, shapes::zero<Real>());
+    std::fill_n(forceZ, corners, shapes::zero<Real>());
+    Shape::addForces(cell, stress.field, forceR, forceZ);
+    for (int k = 0; k < corners; ++k) {
+        if constexpr (std::is_same_v<Real, Four>) {
+            std::array<Four, 4> rows{forceR[k], forceZ[k], 0, 0};
+            transpose(rows);
+            for (int l = 0; l < count; ++l) {
+                Corner& corner = cornerSums_[cells[l] * corners + k];
+                setFour(corner.forceR, fourFrom(corner.forceR) + rows[l]);
+            }
+        } else {
+            cornerSums_[*cells * corners + k].forceR += forceR[k];
+            cornerSums_[*cells * corners + k].forceZ += forceZ[k];
+        }
     }
 }
 
@@ -1317,7 +1429,21 @@ void ExplicitStep<Shape, phases>::mapToNodes(State& state)
     if (asElements) {
         mapFemCellsToNodes(state);
     }
-    forItemsOf(asElements ? awake_ : active_, [&](int c) {
+    const auto finish = [&](int c) {
+        if constexpr (twoPhase) {
+            mapLiquidToNodes(state, c);
+        }
+        if (resting(c)) {
+            sampleFemCell(c);
+        }
+        if (loaded) {
+            addPointLoads(state, c);
+        }
+        if (scene_.bodyForce.given()) {
+            addBodyForce(state, c);
+        }
+    };
+    const auto mapCell = [&](int c) {
         if (asElements && resting(c)) {
             return;
         }
@@ -1327,17 +1453,30 @@ void ExplicitStep<Shape, phases>::mapToNodes(State& state)
                 return;
             }
         }
-        mapCellToNodes(state, c);
-        if constexpr (twoPhase) {
-            mapLiquidToNodes(state, c);
+        kernels::StressSums<double> sums;
+        sumPoints(state, c, sums);
+        if (state.filled[c]) {
+            addStress<double>(state, &c, 1, &sums);
         }
-        if (loaded) {
-            addPointLoads(state, c);
-        }
-        if (scene_.bodyForce.given()) {
-            addBodyForce(state, c);
-        }
-    });
+        finish(c);
+    };
+    const WorkList& list = asElements ? awake_ : active_;
+    if constexpr (hasFours) {
+        const auto mayJoin = [&](int c) { return state.filled[c] != 0 && !(asElements && resting(c)); };
+        forPieces(list, mayJoin, mapCell, [&](std::span<const int> cells) {
+            std::array<kernels::StressSums<double>, cellsPerPiece> sums;
+            for (std::size_t j = 0; j < cells.size(); ++j) {
+                sumPoints(state, cells[j], sums[j]);
+            }
+            for (std::size_t j = 0; j < cells.size(); j += 4) {
+                addStress<Four>(state, &cells[j],
+                                static_cast<int>(std::min<std::size_t>(4, cells.size() - j)), &sums[j]);
+            }
+            std::ranges::for_each(cells, finish);
+        });
+    } else {
+        forItemsOf(list, mapCell);
+    }
     if (scene_.conditions.hasTractions()) {
         std::ranges::fill(traction_, std::array<double, 2>{});
         scene_.conditions.addTractions(state.mesh, state.time, traction_);
@@ -1535,6 +1674,62 @@ void ExplicitStep<Shape, phases>::applyContact(State& state, double dt, bool rem
 // ---------------------------------------------------------------------------------------------------------
 
 template <class Shape, int phases>
+auto ExplicitStep<Shape, phases>::cornerMotion(int c) const -> CornerMotion
+{
+    CornerMotion result;
+    for (int k = 0; k < corners; ++k) {
+        const Node& node = nodes_[cellNodes_[c * corners + k]];
+        result.vr[k] = node.vr;
+        result.vz[k] = node.vz;
+        result.motion[k] = node.motion();
+        if constexpr (twoPhase) {
+            const LiquidNode& liquid = liquidNodes_[cellNodes_[c * corners + k]];
+            result.wr[k] = node.vr + liquid.relativeVr;
+            result.wz[k] = node.vz + liquid.relativeVz;
+            result.liquidMotion[k] = liquid.motion();
+        }
+    }
+    return result;
+}
+
+template <class Shape, int phases>
+auto ExplicitStep<Shape, phases>::strainOfFilled(int c, const CornerMotion& motion, double dt) const
+    -> FilledStrain
+{
+    const bool nodalAverage = scene_.controls.locking == SolutionControls::Locking::nodalAverage;
+    const bool sharedRate =
+        nodalAverage || scene_.controls.locking == SolutionControls::Locking::meanDilatation;
+    FilledStrain result{};
+    Shape::velocityGradient(cells_[c], motion.vr, motion.vz, result.gradient);
+    if constexpr (twoPhase) {
+        shapes::VelocityGradient<corners> ofLiquid;
+        Shape::velocityGradient(cells_[c], motion.wr, motion.wz, ofLiquid);
+        for (int i = 0; i < momentCount; ++i) {
+            result.liquidGradient[i] = ofLiquid[i][0] + ofLiquid[i][1] + ofLiquid[i][2];
+        }
+    }
+    if (nodalAverage) {
+        result.rate = cellRate_[c];
+        result.liquidRate = twoPhase ? cellLiquidRate_[c] : 0;
+    } else {
+        result.rate = result.gradient[0][0] + result.gradient[0][1] + result.gradient[0][2];
+        result.liquidRate = result.liquidGradient[0];
+    }
+    if constexpr (corners == 4) {
+        result.centreXi = fits(c) ? Shape::moments(cells_[c]).xiCentre : pointCentre_[c][0];
+        result.centreEta = fits(c) ? 0 : pointCentre_[c][1];
+    }
+    for (int i = 0; i < momentCount; ++i) {
+        const double(&g)[5] = result.gradient[i];
+        const double own = g[0] + g[1] + g[2];
+        const double taken = !sharedRate ? own : i == 0 ? result.rate : 0.0;
+        kernels::strainOf(g, taken, dt, result.strain[i], result.spin[i]);
+        result.dilatation[i] = dt * taken;
+    }
+    return result;
+}
+
+template <class Shape, int phases>
 template <bool velocities, bool strains>
 void ExplicitStep<Shape, phases>::mapCellToPoints(State& state, double dt, int c)
 {
@@ -1546,70 +1741,19 @@ void ExplicitStep<Shape, phases>::mapCellToPoints(State& state, double dt, int c
     const int* const last = pointCells_.end(c);
     const double flip = scene_.controls.flipOf(dt);
 
-    double vr[corners], vz[corners];
-    std::array<Four, corners> motion; // Node::motion
-    for (int k = 0; k < corners; ++k) {
-        const Node& node = nodes_[cellNodes_[c * corners + k]];
-        vr[k] = node.vr;
-        vz[k] = node.vz;
-        motion[k] = node.motion();
-    }
-    [[maybe_unused]] double wr[corners], wz[corners];
-    [[maybe_unused]] std::array<Four, corners> liquidMotion; // LiquidNode::motion
-    if constexpr (twoPhase) {
-        for (int k = 0; k < corners; ++k) {
-            const LiquidNode& node = liquidNodes_[cellNodes_[c * corners + k]];
-            wr[k] = vr[k] + node.relativeVr;
-            wz[k] = vz[k] + node.relativeVz;
-            liquidMotion[k] = node.motion();
-        }
-    }
-
-    double rate = 0;       // dilatation rate shared by the points of the cell
-    double liquidRate = 0; // of the liquid's velocity, likewise
-    double liquidGradient[3] = {};
-    // Filled cells: mean and slopes of the velocity gradient (rr, zz, hoop, v_r,z, v_z,r) about the points'
-    // centre; of the strain increments with the dilatation that they take, of the spin and of that
-    // dilatation.
-    shapes::VelocityGradient<corners> gradient = {};
-    std::array<Four, momentCount> strain;
-    double spin[momentCount] = {};
-    double dilatation[momentCount] = {};
-    double centreXi = 0;
-    double centreEta = 0;
+    const CornerMotion ofCorners = cornerMotion(c);
+    const auto& [vr, vz, wr, wz, motion, liquidMotion] = ofCorners;
     const bool filled = state.filled[c] != 0;
     const bool sharedRate = meanDilatation || nodalAverage;
+    FilledStrain ofFilled{};
+    auto& [strain, spin, dilatation, rate, liquidRate, liquidGradient, centreXi, centreEta, gradient] =
+        ofFilled;
     if constexpr (strains) {
-        if (nodalAverage) {
+        if (filled) {
+            ofFilled = strainOfFilled(c, ofCorners, dt);
+        } else if (nodalAverage) {
             rate = cellRate_[c];
             liquidRate = twoPhase ? cellLiquidRate_[c] : 0;
-        }
-        if (filled) {
-            Shape::velocityGradient(cell, vr, vz, gradient);
-            if constexpr (twoPhase) {
-                shapes::VelocityGradient<corners> ofLiquid;
-                Shape::velocityGradient(cell, wr, wz, ofLiquid);
-                for (int i = 0; i < momentCount; ++i) {
-                    liquidGradient[i] = ofLiquid[i][0] + ofLiquid[i][1] + ofLiquid[i][2];
-                }
-            }
-            if (!nodalAverage) {
-                rate = gradient[0][0] + gradient[0][1] + gradient[0][2];
-                liquidRate = liquidGradient[0];
-            }
-            if constexpr (corners == 4) {
-                centreXi = fits(c) ? Shape::moments(cell).xiCentre : pointCentre_[c][0];
-                centreEta = fits(c) ? 0 : pointCentre_[c][1];
-            }
-            for (int i = 0; i < momentCount; ++i) {
-                const double(&g)[5] = gradient[i];
-                const double own = g[0] + g[1] + g[2];
-                const double taken = !sharedRate ? own : i == 0 ? rate : 0.0;
-                const double shift = (taken - own) * (1.0 / 3);
-                strain[i] = dt * four(g[0] + shift, g[1] + shift, g[2] + shift, g[3] + g[4]);
-                spin[i] = 0.5 * dt * (g[4] - g[3]);
-                dilatation[i] = dt * taken;
-            }
         } else if (meanDilatation) { // the same mean over the points as in the forces
             double volume = 0;
             Values values;
@@ -1655,14 +1799,14 @@ void ExplicitStep<Shape, phases>::mapCellToPoints(State& state, double dt, int c
             double e = 0; // dilatation
             [[maybe_unused]] double ownLiquid = 0;
             if (filled) {
-                Four increments = strain[0];
+                Four increments = fourFrom(strain[0][0]);
                 double turned = spin[0];
                 e = dilatation[0];
                 ownLiquid = sharedRate ? liquidRate : liquidGradient[0];
                 if constexpr (corners == 4) {
                     const double x = xi - centreXi;
                     const double y = eta - centreEta;
-                    increments += x * strain[1] + y * strain[2];
+                    increments += x * fourFrom(strain[1][0]) + y * fourFrom(strain[2][0]);
                     turned += x * spin[1] + y * spin[2];
                     if (!sharedRate) {
                         e += x * dilatation[1] + y * dilatation[2];
@@ -1968,7 +2112,7 @@ void ExplicitStep<Shape, phases>::mapToPoints(State& state, double dt)
         }
         averageDilatationAtNodes();
     }
-    forAwakeCells([&](int c) {
+    const auto mapCell = [&](int c) {
         if (resting(c)) {
             return;
         }
@@ -1983,7 +2127,22 @@ void ExplicitStep<Shape, phases>::mapToPoints(State& state, double dt)
         } else {
             mapCellToPoints<true, true>(state, dt, c);
         }
-    });
+    };
+    if constexpr (hasFours) {
+        const auto mayJoin = [&](int c) { return state.filled[c] != 0 && !resting(c) && !later(c); };
+        forPieces(awake_, mayJoin, mapCell, [&](std::span<const int> cells) {
+            std::array<FilledStrain, cellsPerPiece> strains;
+            for (std::size_t j = 0; j < cells.size(); j += 4) {
+                strainByFours(&cells[j], static_cast<int>(std::min<std::size_t>(4, cells.size() - j)), dt,
+                              &strains[j]);
+            }
+            for (std::size_t j = 0; j < cells.size(); ++j) {
+                moveByFours(state, dt, cells[j], strains[j]);
+            }
+        });
+    } else {
+        forAwakeCells(mapCell);
+    }
 }
 
 /// work(thread, material, begin, end) for blocks of runs, on all threads.

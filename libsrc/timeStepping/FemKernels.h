@@ -272,6 +272,44 @@ void ExplicitStep<Shape, phases>::numberFemNodes()
     femStep_.step = 0;
 }
 
+/// Keeps what a cell that has come to rest has put on its corners. Where it rested before, its nodes have
+/// their velocities already.
+template <class Shape, int phases>
+void ExplicitStep<Shape, phases>::sampleFemCell(int c)
+{
+    const int f = femOf_[c];
+    FemCell& fem = femCells_[f];
+    const double inverse = 1 / inertiaScale_[c];
+    double volume = 0, poreVolume = 0;
+    for (int k = 0; k < corners; ++k) {
+        const Node& node = nodes_[cellNodes_[c * corners + k]];
+        Corner& corner = cornerSums_[c * corners + k];
+        fem.mass[k] = inverse * corner.mass;
+        if (fem.restedBefore) {
+            corner.momentumR = corner.mass * node.vr;
+            corner.momentumZ = corner.mass * node.vz;
+        }
+        if constexpr (twoPhase) {
+            const LiquidNode& liquidNode = liquidNodes_[cellNodes_[c * corners + k]];
+            LiquidCorner& liquid = liquidCorners_[c * corners + k];
+            FemLiquidCell& kept = femLiquidCells_[f];
+            kept.mass[k] = inverse * liquid.mass;
+            kept.drag[k] = liquid.drag;
+            kept.volume[k] = liquid.volume;
+            kept.poreVolume[k] = liquid.poreVolume;
+            volume += liquid.volume;
+            poreVolume += liquid.poreVolume;
+            if (fem.restedBefore) {
+                liquid.momentumR = liquid.mass * (node.vr + liquidNode.relativeVr);
+                liquid.momentumZ = liquid.mass * (node.vz + liquidNode.relativeVz);
+            }
+        }
+    }
+    if constexpr (twoPhase) {
+        fem_.porosity[f] = poreVolume / volume;
+    }
+}
+
 template <class Shape, int phases>
 void ExplicitStep<Shape, phases>::sumInnerNodes()
 {

@@ -97,7 +97,14 @@ void ExplicitStep<Shape, phases>::mapLiquidToNodes(const State& state, int c)
     };
     const int* const first = pointCells_.begin(c);
     const int* const last = pointCells_.end(c);
-    for (const int* i = first; full && i != last; ++i) {
+    const bool byFours = byFours_ && full;
+    if constexpr (hasFours) {
+        if (byFours) {
+            pressureVolume = sumLiquidByFours(points, c, inertia, volumes);
+            volume = dilatation_[c].volume / fullness_[c];
+        }
+    }
+    for (const int* i = first; full && !byFours && i != last; ++i) {
         const auto [x, y] = Shape::evaluate(cell, points.r[*i], points.z[*i], values);
         const auto [v, pressure] = add(*i);
         if (corners == 4 && !meanDilatation) {
@@ -178,27 +185,8 @@ void ExplicitStep<Shape, phases>::mapLiquidToNodes(const State& state, int c)
             }
         }
     }
-    const int f = resting(c) ? femOf_[c] : -1;
-    double poreVolume = 0;
-    double wholeVolume = 0;
-    for (int k = 0; f >= 0 && k < corners; ++k) {
-        FemLiquidCell& fem = femLiquidCells_[f];
-        const double mass = inertia[k][0];
-        fem.mass[k] = fullness_[c] * mass;
-        fem.drag[k] = fullness_[c] * inertia[k][3];
-        fem.volume[k] = volumes[k][0];
-        fem.poreVolume[k] = volumes[k][1];
-        wholeVolume += volumes[k][0];
-        poreVolume += volumes[k][1];
-        if (femCells_[f].restedBefore) {
-            const int i = cellNodes_[c * corners + k];
-            inertia[k] = four(mass, mass * (nodes_[i].vr + liquidNodes_[i].relativeVr),
-                              mass * (nodes_[i].vz + liquidNodes_[i].relativeVz), inertia[k][3]);
-        }
-    }
-    if (f >= 0) {
-        fem_.pressure[f] = mean;
-        fem_.porosity[f] = poreVolume / wholeVolume;
+    if (resting(c)) {
+        fem_.pressure[femOf_[c]] = mean;
     }
     const double scaled = inertiaScale_[c] * fullness_[c];
     const Four scale = four(scaled, scaled, scaled, fullness_[c]);

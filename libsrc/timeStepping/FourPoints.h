@@ -1,0 +1,147 @@
+#pragma once
+
+#include "timeStepping/Four.h"
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cstddef>
+#include <functional>
+#include <vector>
+
+namespace caisson {
+
+/// One to four points that lie one behind the other in the storage. What lies behind them is read, too, and
+/// not used.
+template <int count>
+struct AdjacentPoints
+{
+    std::size_t first;
+
+    [[gnu::always_inline]] [[nodiscard]] Four of(const std::vector<double>& values) const
+    {
+        return Four(values.data() + first, std::experimental::element_aligned);
+    }
+    [[gnu::always_inline]] void set(std::vector<double>& values, const Four& result) const
+    {
+        double* const to = values.data() + first;
+        if constexpr (count == 4) {
+            result.copy_to(to, std::experimental::element_aligned);
+        } else {
+            to[0] = result[0];
+            if constexpr (count > 1) {
+                to[1] = result[1];
+            }
+            if constexpr (count > 2) {
+                to[2] = result[2];
+            }
+        }
+    }
+    /// `of` one of the values, that of its material, for each.
+    template <class Value, class Of = std::identity>
+    [[gnu::always_inline]] [[nodiscard]] Four
+    ofMaterial(const std::vector<Value>& values, const std::vector<int>& material, const Of& of = {}) const
+    {
+        const auto at = [&](std::size_t p) { return std::invoke(of, values[material[p]]); };
+        return values.size() == 1 ? Four(std::invoke(of, values[0]))
+                                  : four(at(first), at(first + 1), at(first + 2), at(first + 3));
+    }
+    /// Zero for those behind the points.
+    [[gnu::always_inline]] [[nodiscard]] static Four only(const Four& values)
+    {
+        if constexpr (count == 4) {
+            return values;
+        } else {
+            Four result = values;
+            where(four(0, 1, 2, 3) >= count, result) = 0;
+            return result;
+        }
+    }
+};
+
+/// Four points anywhere, or less: then the last one stands for those that are missing.
+struct ScatteredPoints
+{
+    std::array<int, 4> at;
+    int count;
+
+    [[gnu::always_inline]] [[nodiscard]] Four of(const std::vector<double>& values) const
+    {
+        return four(values[at[0]], values[at[1]], values[at[2]], values[at[3]]);
+    }
+    [[gnu::always_inline]] void set(std::vector<double>& values, const Four& result) const
+    {
+        alignas(4 * sizeof(double)) std::array<double, 4> results;
+        setFour(results[0], result);
+        for (int l = 0; l < count; ++l) {
+            values[at[l]] = results[l];
+        }
+    }
+    template <class Value, class Of = std::identity>
+    [[gnu::always_inline]] [[nodiscard]] Four
+    ofMaterial(const std::vector<Value>& values, const std::vector<int>& material, const Of& of = {}) const
+    {
+        const auto value = [&](int p) { return std::invoke(of, values[material[p]]); };
+        return values.size() == 1 ? Four(std::invoke(of, values[0]))
+                                  : four(value(at[0]), value(at[1]), value(at[2]), value(at[3]));
+    }
+    [[gnu::always_inline]] [[nodiscard]] Four only(const Four& values) const
+    {
+        Four result = values;
+        where(four(0, 1, 2, 3) >= count, result) = 0;
+        return result;
+    }
+};
+
+/// work(points) for the points of an ascending list, four at a time. `size`: of the arrays that they are in.
+template <class Work>
+[[gnu::always_inline]] inline void forFours(const int* first, const int* last, std::size_t size,
+                                            const Work& work)
+{
+    for (; first < last; first += 4) {
+        const int count = static_cast<int>(std::min<std::ptrdiff_t>(last - first, 4));
+        const auto at = static_cast<std::size_t>(first[0]);
+        if (first[count - 1] - first[0] != count - 1 || at + 4 > size) {
+            work(ScatteredPoints{
+                {first[0], first[std::min(1, count - 1)], first[std::min(2, count - 1)], first[count - 1]},
+                count});
+        } else if (count == 4) {
+            work(AdjacentPoints<4>{at});
+        } else if (count == 3) {
+            work(AdjacentPoints<3>{at});
+        } else if (count == 2) {
+            work(AdjacentPoints<2>{at});
+        } else {
+            work(AdjacentPoints<1>{at});
+        }
+    }
+}
+
+/// Rows become columns.
+[[gnu::always_inline]] inline void transpose(std::array<Four, 4>& rows)
+{
+    using Vector [[gnu::vector_size(4 * sizeof(double))]] = double;
+    static_assert(sizeof(Vector) == sizeof(Four));
+    const auto a = std::bit_cast<Vector>(rows[0]);
+    const auto b = std::bit_cast<Vector>(rows[1]);
+    const auto c = std::bit_cast<Vector>(rows[2]);
+    const auto d = std::bit_cast<Vector>(rows[3]);
+    const Vector abEven = __builtin_shufflevector(a, b, 0, 4, 2, 6);
+    const Vector abOdd = __builtin_shufflevector(a, b, 1, 5, 3, 7);
+    const Vector cdEven = __builtin_shufflevector(c, d, 0, 4, 2, 6);
+    const Vector cdOdd = __builtin_shufflevector(c, d, 1, 5, 3, 7);
+    rows[0] = std::bit_cast<Four>(__builtin_shufflevector(abEven, cdEven, 0, 1, 4, 5));
+    rows[1] = std::bit_cast<Four>(__builtin_shufflevector(abOdd, cdOdd, 0, 1, 4, 5));
+    rows[2] = std::bit_cast<Four>(__builtin_shufflevector(abEven, cdEven, 2, 3, 6, 7));
+    rows[3] = std::bit_cast<Four>(__builtin_shufflevector(abOdd, cdOdd, 2, 3, 6, 7));
+}
+
+/// The sum of each.
+[[gnu::always_inline]] inline Four sums(const Four& a, const Four& b, const Four& c, const Four& d)
+{
+    std::array<Four, 4> rows{a, b, c, d};
+    transpose(rows);
+    return (rows[0] + rows[1]) + (rows[2] + rows[3]);
+}
+
+} // namespace caisson
