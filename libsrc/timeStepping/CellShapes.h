@@ -1,8 +1,7 @@
 #pragma once
 
 #include "mesh/BackgroundMesh.h"
-
-#include <Eigen/Core>
+#include "timeStepping/Four.h"
 
 #include <algorithm>
 #include <array>
@@ -61,7 +60,7 @@ using StressField = Real[Moments<corners>::count][4];
 
 /// One value for each of so many cells that are computed together.
 template <int lanes>
-using Lanes = std::conditional_t<lanes == 1, double, Eigen::Array<double, lanes, 1>>;
+using Lanes = std::conditional_t<lanes == 1, double, Four>;
 
 inline double lane(double value, int) { return value; }
 template <class Real>
@@ -83,15 +82,11 @@ template <class Real>
     if constexpr (std::is_same_v<Real, double>) {
         return values[f];
     } else {
-        constexpr int lanes = Real::RowsAtCompileTime;
-        if (count == lanes) {
-            return Eigen::Map<const Real>(values.data() + f);
+        if (count == 4) {
+            return Four(values.data() + f, std::experimental::element_aligned);
         }
-        Real result;
-        for (int l = 0; l < lanes; ++l) {
-            result[l] = values[f + std::min(l, count - 1)];
-        }
-        return result;
+        const auto at = [&](int l) { return values[f + std::min(l, count - 1)]; };
+        return four(at(0), at(1), at(2), at(3));
     }
 }
 
@@ -100,8 +95,8 @@ template <class Real>
 {
     if constexpr (std::is_same_v<Real, double>) {
         values[f] = result;
-    } else if (count == Real::RowsAtCompileTime) {
-        Eigen::Map<Real>(values.data() + f) = result;
+    } else if (count == 4) {
+        result.copy_to(values.data() + f, std::experimental::element_aligned);
     } else {
         for (int l = 0; l < count; ++l) {
             values[f + l] = result[l];
@@ -112,11 +107,7 @@ template <class Real>
 template <class Real>
 Real zero()
 {
-    if constexpr (requires { Real::Zero(); }) {
-        return Real::Zero();
-    } else {
-        return Real(0);
-    }
+    return 0;
 }
 
 template <int corners>
@@ -197,7 +188,7 @@ struct Rectangle
 {
     static constexpr int corners = 4;
     static constexpr bool isAxisymmetric = axisymmetric;
-    static constexpr int lanes = 8; ///< cells whose integrals are computed together
+    static constexpr int lanes = 4; ///< cells whose integrals are computed together
 
     /// Of one cell, or of several that are computed together.
     template <class Real>
@@ -253,8 +244,11 @@ struct Rectangle
         }
         [[nodiscard]] Integrals<Lanes<lanes>> at(int f, int count) const
         {
-            const auto of = [&](int j) { return lanesOf<Lanes<lanes>>(values_[j], f, count); };
-            return {of(0), of(1), of(2), of(3), of(4), of(5), of(6)};
+            using Real = Lanes<lanes>;
+            return {lanesOf<Real>(values_[0], f, count), lanesOf<Real>(values_[1], f, count),
+                    lanesOf<Real>(values_[2], f, count), lanesOf<Real>(values_[3], f, count),
+                    lanesOf<Real>(values_[4], f, count), lanesOf<Real>(values_[5], f, count),
+                    lanesOf<Real>(values_[6], f, count)};
         }
 
     private:

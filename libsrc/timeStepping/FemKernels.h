@@ -432,12 +432,14 @@ namespace kernels {
 
 /// one/other within 0 and 1, and 1 where other is zero.
 template <class Real>
-Real shareOf(const Real& one, const Real& other)
+[[gnu::always_inline]] inline Real shareOf(const Real& one, const Real& other)
 {
     if constexpr (std::is_same_v<Real, double>) {
         return other > 0 ? std::clamp(one / other, 0.0, 1.0) : 1.0;
     } else {
-        return (other > 0).select((one / other).max(0.0).min(1.0), 1.0);
+        Real share = clamp(one / other, Real(0), Real(1));
+        where(!(other > 0), share) = 1;
+        return share;
     }
 }
 
@@ -476,11 +478,19 @@ void ExplicitStep<Shape, phases>::addFemForces(const State& state, int f, int co
         const Real pressure = shapes::lanesOf<Real>(fem_.pressure, f, count);
         Shape::addPressure(cell, pressure, force[2], force[3]);
     }
-    for (int l = 0; l < count; ++l) {
-        FemForce* const out = &femForces_[static_cast<std::size_t>(f + l) * corners];
-        for (int k = 0; k < corners; ++k) {
-            for (int j = 0; j < (twoPhase ? 4 : 2); ++j) {
-                out[k][j] = shapes::lane(force[j][k], l);
+    FemForce* const out = &femForces_[static_cast<std::size_t>(f) * corners];
+    for (int k = 0; k < corners; ++k) {
+        if constexpr (twoPhase && std::is_same_v<Real, Four>) {
+            std::array<Four, 4> rows{force[0][k], force[1][k], force[2][k], force[3][k]};
+            transpose(rows);
+            for (int l = 0; l < count; ++l) {
+                rows[l].copy_to(out[l * corners + k].data(), std::experimental::element_aligned);
+            }
+        } else {
+            for (int l = 0; l < count; ++l) {
+                for (int j = 0; j < (twoPhase ? 4 : 2); ++j) {
+                    out[l * corners + k][j] = shapes::lane(force[j][k], l);
+                }
             }
         }
     }
@@ -660,16 +670,30 @@ void ExplicitStep<Shape, phases>::strainFemCells(State& state, double dt, int f,
     const auto& cell = femShapes_.at(f, count);
     Real vr[corners], vz[corners];
     [[maybe_unused]] Real relativeR[corners], relativeZ[corners];
-    for (int l = 0; l < Shape::lanes; ++l) {
-        const std::array<int, corners>& at = fem_.node[f + std::min(l, count - 1)];
-        for (int k = 0; k < corners; ++k) {
-            const FemMotion& motion = femMotion_[at[k]];
-            shapes::setLane(vr[k], l, motion[0]);
-            shapes::setLane(vz[k], l, motion[1]);
+    for (int k = 0; k < corners; ++k) {
+        const auto motion = [&](int l) -> const FemMotion& {
+            return femMotion_[fem_.node[f + std::min(l, count - 1)][k]];
+        };
+        if constexpr (std::is_same_v<Real, double>) {
+            vr[k] = motion(0)[0];
+            vz[k] = motion(0)[1];
             if constexpr (twoPhase) {
-                shapes::setLane(relativeR[k], l, motion[2]);
-                shapes::setLane(relativeZ[k], l, motion[3]);
+                relativeR[k] = motion(0)[2];
+                relativeZ[k] = motion(0)[3];
             }
+        } else if constexpr (twoPhase) {
+            std::array<Four, 4> rows;
+            for (int l = 0; l < 4; ++l) {
+                rows[l] = Four(motion(l).data(), std::experimental::element_aligned);
+            }
+            transpose(rows);
+            vr[k] = rows[0];
+            vz[k] = rows[1];
+            relativeR[k] = rows[2];
+            relativeZ[k] = rows[3];
+        } else {
+            vr[k] = four(motion(0)[0], motion(1)[0], motion(2)[0], motion(3)[0]);
+            vz[k] = four(motion(0)[1], motion(1)[1], motion(2)[1], motion(3)[1]);
         }
     }
     shapes::VelocityGradient<corners, Real> rate;
