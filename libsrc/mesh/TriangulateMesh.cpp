@@ -8,8 +8,8 @@ namespace caisson {
 
 namespace {
 
-/// Corner that the diagonal of each cell starts at, 0 or 1: another one than that of the cells beside it, where
-/// they can be told apart like the squares of a chessboard.
+/// Corner that the diagonal of each cell starts at, 0 or 1: another one than that of the cells beside it,
+/// where they can be told apart like the squares of a chessboard.
 std::vector<int> diagonals(const BackgroundMesh& mesh)
 {
     std::vector<int> first(mesh.cells(), -1);

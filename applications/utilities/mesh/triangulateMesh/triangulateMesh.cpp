@@ -46,7 +46,8 @@ int main(int argc, char* argv[])
     Program program{"triangulateMesh", "[-case DIR] [-dry-run]",
                     "Makes two triangles of each quadrilateral of a mesh."};
     program.options.add_options()("case", options::value<std::string>()->default_value("."),
-                                  "the case directory")("dry-run", "read, check and report, but write nothing");
+                                  "the case directory")("dry-run",
+                                                        "read, check and report, but write nothing");
     program.run = [](const options::variables_map& given, const std::string&) {
         run(given["case"].as<std::string>(), given.contains("dry-run"));
         return 0;
