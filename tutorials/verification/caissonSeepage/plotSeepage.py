@@ -1,5 +1,5 @@
 #!/usr/bin/python3
-"""Draws the excess pore pressure round the caisson, and the discharge, of the last domain."""
+"""Draws the excess pore pressure round the caisson, and the discharge, of the run in this folder."""
 
 import sys
 from pathlib import Path
