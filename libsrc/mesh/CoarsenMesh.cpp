@@ -56,7 +56,7 @@ public:
         keepPatchesAndZones();
         merge();
         sortCells();
-        const auto [front, back] = planePatches();
+        const auto [front, back] = planePatches(poly_, fine_);
         return polyMeshLayer(flatMesh(), front, back);
     }
 
@@ -81,7 +81,6 @@ private:
     void sortCells();
     [[nodiscard]] BackgroundMesh flatMesh() const;
     [[nodiscard]] int patchOf(const Place& a, const Place& b) const;
-    [[nodiscard]] std::array<int, 2> planePatches() const;
     [[nodiscard]] static double coordinate(const Lines& lines, int halves)
     {
         return (lines.at[halves / 2] + lines.at[(halves + 1) / 2]) / 2;
@@ -423,28 +422,6 @@ int Grid::patchOf(const Place& a, const Place& b) const
         }
     }
     return -1;
-}
-
-/// The patches that the front and the back plane belong to.
-std::array<int, 2> Grid::planePatches() const
-{
-    std::vector<std::array<bool, 2>> isOn(poly_.points.size(), {false, false});
-    for (const std::array<int, 2>& points : fine_.nodePoints) {
-        isOn[points[0]][0] = true;
-        isOn[points[1]][1] = true;
-    }
-    std::array<int, 2> patches = {-1, -1};
-    for (std::size_t i = 0; i < poly_.patches.size(); ++i) {
-        const PolyPatch& patch = poly_.patches[i];
-        for (int f = patch.startFace; f < patch.startFace + patch.faces; ++f) {
-            for (const std::size_t plane : {0, 1}) {
-                if (std::ranges::all_of(poly_.faces[f], [&](int p) { return isOn[p][plane]; })) {
-                    patches[plane] = static_cast<int>(i);
-                }
-            }
-        }
-    }
-    return patches;
 }
 
 } // namespace

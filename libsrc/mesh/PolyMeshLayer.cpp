@@ -118,4 +118,25 @@ PolyMesh polyMeshLayer(const BackgroundMesh& flat, int frontPatch, int backPatch
     return Layer(flat).make(frontPatch, backPatch);
 }
 
+std::array<int, 2> planePatches(const PolyMesh& polyMesh, const BackgroundMesh& flat)
+{
+    std::vector<std::array<bool, 2>> isOn(polyMesh.points.size(), {false, false});
+    for (const std::array<int, 2>& points : flat.nodePoints) {
+        isOn[points[0]][0] = true;
+        isOn[points[1]][1] = true;
+    }
+    std::array<int, 2> patches = {-1, -1};
+    for (std::size_t i = 0; i < polyMesh.patches.size(); ++i) {
+        const PolyPatch& patch = polyMesh.patches[i];
+        for (int f = patch.startFace; f < patch.startFace + patch.faces; ++f) {
+            for (const std::size_t plane : {0, 1}) {
+                if (std::ranges::all_of(polyMesh.faces[f], [&](int p) { return isOn[p][plane]; })) {
+                    patches[plane] = static_cast<int>(i);
+                }
+            }
+        }
+    }
+    return patches;
+}
+
 } // namespace caisson

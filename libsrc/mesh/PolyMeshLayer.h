@@ -11,4 +11,7 @@ namespace caisson {
 /// @param frontPatch, backPatch  the patches that the two planes belong to, perhaps one and the same
 PolyMesh polyMeshLayer(const BackgroundMesh& flat, int frontPatch, int backPatch);
 
+/// The patches that the front and the back plane of a layer belong to.
+std::array<int, 2> planePatches(const PolyMesh& polyMesh, const BackgroundMesh& flat);
+
 } // namespace caisson

@@ -1,5 +1,5 @@
 #!/usr/bin/python3
-"""Draws the excess pore pressure round the caisson, and the discharge, of the last domain."""
+"""Draws the excess pore pressure round the caisson, and the discharge, of the run in this folder."""
 
 import sys
 from pathlib import Path
@@ -21,10 +21,11 @@ reader.SetFileName(str(files[-1]))
 reader.Update()
 grid = reader.GetOutput()
 r, _, z = vtk_to_numpy(grid.GetPoints().GetData()).T
-corners = vtk_to_numpy(grid.GetCells().GetConnectivityArray()).reshape(-1, 4)
+corners = vtk_to_numpy(grid.GetCells().GetConnectivityArray()).reshape(grid.GetNumberOfCells(), -1)
 excess = vtk_to_numpy(grid.GetPointData().GetArray("excessPressure"))
 discharge = vtk_to_numpy(grid.GetCellData().GetArray("discharge"))
-mesh = Triangulation(r, z, np.vstack([corners[:, [0, 1, 2]], corners[:, [0, 2, 3]]]))
+halves = [corners[:, [0, 1, 2]], corners[:, [0, 2, 3]]] if corners.shape[1] == 4 else [corners]
+mesh = Triangulation(r, z, np.vstack(halves))
 figure, axes = plt.subplots(figsize=(7, 5), layout="constrained")
 contours = axes.tricontourf(mesh, excess / 1e4, levels=np.linspace(-1, 0, 21), cmap="turbo")
 centre = np.column_stack([r[corners].mean(axis=1), z[corners].mean(axis=1)])
