@@ -1,4 +1,5 @@
 #include "timeStepping/ProjectionKernels.h"
+#include "timeStepping/StableStepKernels.h"
 
 namespace caisson {
 
