@@ -137,5 +137,19 @@ TEST(StableStep, isSafeWithLaggedDragBesideItsCrossoverWithTheWaves)
     }
 }
 
+/// With the dilatation averaged over nodes such points are thrown up until one leaves the mesh.
+TEST(DilatingSand, staysAtASkirtOnTrianglesWithTheirOwnDilatation)
+{
+    Skirt skirt{.kernel = {1, true, Geometry::axisymmetric}};
+    skirt.soil.dilatancyAngle = 20;
+    const Outcome outcome = outcomeOf([&] {
+        Simulation simulation = make(skirt);
+        simulation.scene.controls.locking = SolutionControls::Locking::none;
+        return drive(simulation, skirt.soil, 1500, 0.8);
+    });
+    EXPECT_EQ(outcome.verdict, Verdict::holds)
+        << "expected holds over 1500 steps, got " << name(outcome.verdict) << ": " << outcome.remark;
+}
+
 } // namespace
 } // namespace caisson::stability
