@@ -182,6 +182,10 @@ private:
 /// longer than wide.
 inline constexpr double quadrilateralStep = 0.7;
 
+/// Step of nodes whose points keep all of their shortest wave (phi = 1: h/c), over that.
+template <class Shape>
+inline constexpr double nodalShare = Shape::corners == 4 ? 1 / quadrilateralStep : 1.0;
+
 /// Axis-parallel rectangle, corner 0 lower left, counter-clockwise. All integrals in closed form.
 template <bool axisymmetric>
 struct Rectangle

@@ -6,6 +6,7 @@
 #include "timeStepping/PointBox.h"
 #include "timeStepping/PointCells.h"
 #include "timeStepping/PressureSolver.h"
+#include "timeStepping/StiffestMode.h"
 #include "timeStepping/Threads.h"
 #include "timeStepping/TimeStep.h"
 
@@ -88,6 +89,7 @@ private:
     static constexpr int corners = Shape::corners;
     static constexpr bool axisymmetric = Shape::isAxisymmetric;
     static constexpr bool twoPhase = phases == 2;
+    static constexpr bool isConstantStrain = Shape::corners == 3;
     static constexpr bool hasBoxes = Shape::corners == 4 && !twoPhase;
     static constexpr bool hasFours = Shape::lanes > 1; ///< RectangleKernels.h
     // Pieces of work that a thread takes at a time
@@ -475,6 +477,12 @@ private:
     [[nodiscard]] double waveStep(const State& state, int c) const;
     [[nodiscard]] double laggedDragStep(const State& state, int c, double size) const;
     [[nodiscard]] double fastestWave(const State& state, int c) const;
+    void findStiffestMode(const State& state)
+        requires isConstantStrain;
+    [[nodiscard]] typename StiffestMode<phases>::Cell modeCell(const State& state, int c) const
+        requires isConstantStrain;
+    void setModeNodes()
+        requires isConstantStrain;
     [[nodiscard]] double cellStep(const State& state, int c) const;
 
     const Scene& scene_;
@@ -597,6 +605,11 @@ private:
         around_;                  ///< per cell: itself and those around it, row by row from below, or -1
     std::vector<PointBox> boxes_; ///< per point
     CellLocator locator_;
+    // Triangles only (StableStepKernels.h).
+    StiffestMode<phases> mode_;
+    std::vector<int> modeNumber_;                   ///< per node: its number there, or -1
+    double stepShare_ = 1;                          ///< the stable step over what the size of the cells says
+    double nodalShare_ = shapes::nodalShare<Shape>; ///< likewise, of nodes whose points keep all they have
 };
 
 } // namespace caisson

@@ -1,5 +1,6 @@
 #include "timeStepping/ProjectionKernels.h"
 #include "timeStepping/RectangleKernels.h"
+#include "timeStepping/StableStepKernels.h"
 
 namespace caisson {
 

@@ -2,6 +2,7 @@
 
 #include "Limits.h"
 #include "Matrix.h"
+#include "dictionary/Text.h"
 
 #include <gtest/gtest.h>
 
@@ -63,23 +64,91 @@ std::string testName(const ::testing::TestParamInfo<std::string>& info)
 
 INSTANTIATE_TEST_SUITE_P(Map, QuickSquare, ::testing::ValuesIn(quickSweeps()), testName);
 
+/// A block of six by six cells, all filled, with noise.
+Block noisyBlock(int phases, bool triangles)
+{
+    Block block{.kernel = {phases, triangles, Geometry::planeStrain}};
+    block.columns = block.rows = 6;
+    block.emptyRows = 0;
+    block.gravity = 0;
+    block.noise = 1e-7;
+    return block;
+}
+
+/// Noise is bounded at the estimate of the stable step over 3000 steps, and grows at 1/0.75 of it.
+void expectSafeAndThreeQuarters(const Block& block, const std::string& name)
+{
+    EXPECT_FALSE(grows(block, 1.0, 3000))
+        << name << ": expected bounded noise at the estimate, got ten times its energy";
+    EXPECT_TRUE(grows(block, 1 / 0.75, 3000))
+        << name << ": expected noise that grows at 1.333 of the estimate, got bounded noise";
+}
+
 /// The estimate of the stable step is safe, and not much too small, with implicit drag.
 TEST(StableStep, isSafeAndThreeQuartersOfTheTrueLimitAtLeast)
 {
     for (const int phases : {1, 2}) {
         for (const bool triangles : {false, true}) {
-            Block block{.kernel = {phases, triangles, Geometry::planeStrain}};
-            block.columns = block.rows = 6;
-            block.emptyRows = 0;
-            block.gravity = 0;
-            block.noise = 1e-7;
-            const std::string kernel = block.kernel.name();
-            EXPECT_FALSE(grows(block, 1.0, 3000)) << kernel << ": noise grows at the estimate";
-            // Triangles of two phases: their averaged pressures allow more (see doc/stability.md).
-            const double beyond = phases == 2 && triangles ? 1.6 : 1 / 0.75;
-            EXPECT_TRUE(grows(block, beyond, 3000)) << kernel << ": noise does not grow at " << beyond;
+            const Block block = noisyBlock(phases, triangles);
+            expectSafeAndThreeQuarters(block, block.kernel.name());
         }
     }
+}
+
+/// The masses of nodes among such points differ by a factor of ten.
+TEST(StableStep, isSafeForTrianglesWithSinglePointsAtRandom)
+{
+    for (const int phases : {1, 2}) {
+        for (const unsigned seed : {1u, 2u, 3u}) {
+            Block block = noisyBlock(phases, true);
+            block.pointsPerSide = 1;
+            block.randomPlaces = true;
+            block.seed = seed;
+            expectSafeAndThreeQuarters(block, block.kernel.name() + text(", seed %u", seed));
+        }
+    }
+}
+
+/// Averages over nodes make the waves of the water longer, the more so the stiffer it is.
+TEST(StableStep, knowsTheAveragedPressuresOfStiffWaterInTriangles)
+{
+    for (const double permeability : {1e-12, 1e-8}) {
+        for (const int emptyRows : {0, 1}) {
+            Block block = noisyBlock(2, true);
+            block.soil.permeability = permeability;
+            block.soil.liquidBulkModulus = 2.2e9;
+            block.emptyRows = emptyRows;
+            expectSafeAndThreeQuarters(
+                block, text("k = %g m2, %s", permeability, emptyRows > 0 ? "free surface" : "all filled"));
+        }
+    }
+}
+
+/// Drag of the last step limits the step together with the waves.
+TEST(StableStep, isSafeWithLaggedDragBesideItsCrossoverWithTheWaves)
+{
+    for (const bool triangles : {false, true}) {
+        for (const double permeability : {5e-11, 1e-10, 2e-10}) {
+            Block block = noisyBlock(2, triangles);
+            block.drag = SolutionControls::Drag::lagged;
+            block.soil.permeability = permeability;
+            expectSafeAndThreeQuarters(block, block.kernel.name() + text(", k = %g m2", permeability));
+        }
+    }
+}
+
+/// With the dilatation averaged over nodes such points are thrown up until one leaves the mesh.
+TEST(DilatingSand, staysAtASkirtOnTrianglesWithTheirOwnDilatation)
+{
+    Skirt skirt{.kernel = {1, true, Geometry::axisymmetric}};
+    skirt.soil.dilatancyAngle = 20;
+    const Outcome outcome = outcomeOf([&] {
+        Simulation simulation = make(skirt);
+        simulation.scene.controls.locking = SolutionControls::Locking::none;
+        return drive(simulation, skirt.soil, 1500, 0.8);
+    });
+    EXPECT_EQ(outcome.verdict, Verdict::holds)
+        << "expected holds over 1500 steps, got " << name(outcome.verdict) << ": " << outcome.remark;
 }
 
 } // namespace
