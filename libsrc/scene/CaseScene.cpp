@@ -346,6 +346,13 @@ CaseScene readCaseScene(const std::filesystem::path& caseDirectory, const std::f
                                        : suggestion(zone, names, "cellZones"));
         }
         result.monitorInterval = readMonitorInterval(*dictionary);
+        if (scene.controls.affine && state.mesh.corners == 3) {
+            problems.add(
+                {"system/mpmSolution", 0},
+                "affine (APIC) is unstable on triangles: nothing there takes energy from what points that "
+                "move add to short waves",
+                "flipShare 1; affine no; or quadrilaterals");
+        }
         for (const Material& material : scene.materials) {
             if (scene.controls.affine && material.law->plastic()) {
                 problems.add({"system/mpmSolution", 0},

@@ -48,7 +48,7 @@ constexpr Keyword keywords[] = {
     {"flipShare", "-", "1", "[0, 1]", "share of the FLIP velocity update per step, the rest is PIC"},
     {"affine", "flag", "no", "",
      "APIC: points bring the gradient of their velocity to the nodes, which keeps angular momentum; "
-     "flipShare 0, elastic laws"},
+     "flipShare 0, elastic laws, quadrilaterals"},
     {"picTime", "s", "0", "[0, inf)", "time over which velocities relax to the PIC ones; 0 is never"},
     {"localDamping", "-", "0", "[0, 1)",
      "share of the out-of-balance force that opposes the motion; 0 to 0.05 while a body penetrates"},

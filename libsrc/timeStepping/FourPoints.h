@@ -11,8 +11,8 @@
 
 namespace caisson {
 
-/// One to four points that lie one behind the other in the storage. What lies behind them is read, too, and
-/// not used.
+/// One to four points that lie one behind the other in the storage. What lies behind them is read, too, even
+/// while another thread gives it new values, and not used.
 template <int count>
 struct AdjacentPoints
 {

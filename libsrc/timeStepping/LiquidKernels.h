@@ -1,6 +1,6 @@
 #pragma once
 
-#include "timeStepping/ExplicitStepKernels.h"
+#include "timeStepping/PointsToNodes.h"
 
 // The liquid of two-phase soil (v-w formulation, one material point for both phases) [Jassim, Stolle &
 // Vermeer 2013; van Esch, Stolle & Jassim 2011]. Per volume of mixture, with p the pore pressure less its

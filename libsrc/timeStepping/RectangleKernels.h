@@ -1,7 +1,6 @@
 #pragma once
 
-#include "timeStepping/ExplicitStepKernels.h"
-#include "timeStepping/FourPoints.h"
+#include "timeStepping/NodesToPoints.h"
 
 // The points of filled cells that are rectangles, four at a time. The shape functions of a rectangle are
 // products of 1 +- xi and 1 +- eta: sums over the points need a quantity times 1, xi, eta and xi eta, and

@@ -1,5 +1,10 @@
+#include "timeStepping/CellKernels.h"
+#include "timeStepping/NodeKernels.h"
+#include "timeStepping/NodesToPoints.h"
+#include "timeStepping/PointsToNodes.h"
 #include "timeStepping/ProjectionKernels.h"
 #include "timeStepping/RectangleKernels.h"
+#include "timeStepping/SortKernels.h"
 #include "timeStepping/StableStepKernels.h"
 
 namespace caisson {
