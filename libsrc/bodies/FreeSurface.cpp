@@ -1,6 +1,7 @@
 #include "bodies/FreeSurface.h"
 
 #include <algorithm>
+#include <cmath>
 
 namespace caisson {
 
@@ -57,6 +58,17 @@ int freeSurfaceAt(const std::vector<FreeSurface>& surfaces, const std::vector<Ri
         }
     }
     return -1;
+}
+
+bool overWall(const std::vector<RigidBody>& bodies, double radius)
+{
+    return std::ranges::any_of(bodies, [&](const RigidBody& body) {
+        double outer = 0;
+        for (const ProfileEdge& edge : body.profile) {
+            outer = std::max(outer, edge.from[0]);
+        }
+        return body.innerRadius() > 0 && std::abs(radius) > body.innerRadius() && std::abs(radius) < outer;
+    });
 }
 
 double excessPressure(const FreeSurface& surface, const std::vector<RigidBody>& bodies, double time,

@@ -38,6 +38,10 @@ struct FreeSurface
 int freeSurfaceAt(const std::vector<FreeSurface>& surfaces, const std::vector<RigidBody>& bodies,
                   double radius);
 
+/// Whether a radius is that of a body's wall, over which there is neither inside nor outside: soil that is
+/// level with the top of a wall has the pressures of its two sides.
+bool overWall(const std::vector<RigidBody>& bodies, double radius);
+
 /// Pressure on a free surface less its hydrostatic part rho_w g_z z [Pa].
 /// @param unitWeight  of the liquid along z, rho_w g_z: negative [N/m3]
 double excessPressure(const FreeSurface& surface, const std::vector<RigidBody>& bodies, double time,

@@ -203,14 +203,7 @@ SeepageScene seepageScene(const Scene& scene, const State& state, bool compressi
     }
     scene.liquidBoundary.setPressures(mesh, state.time, unitWeight, result.given);
     scene.liquidBoundary.addInflows(mesh, state.time, result.inflow);
-    for (int c = 0; c < mesh.cells(); ++c) {
-        if (result.soil[c] || inside[c]) {
-            continue;
-        }
-        double centre = 0;
-        for (int k = 0; k < mesh.corners; ++k) {
-            centre += mesh.r[mesh.node(c, k)] / mesh.corners;
-        }
+    const auto setSurface = [&](int c, double centre) {
         const int s = freeSurfaceAt(scene.freeSurfaces, state.bodies, centre);
         bool within = false;
         for (const RigidBody& body : state.bodies) {
@@ -224,7 +217,22 @@ SeepageScene seepageScene(const Scene& scene, const State& state, bool compressi
             const int i = mesh.node(c, k);
             if (soilNode[i]) {
                 result.given[i] = pressure;
-                (within ? result.insideSurface : result.outsideSurface)[i] = 1;
+                result.insideSurface[i] = within;
+                result.outsideSurface[i] = !within;
+            }
+        }
+    };
+    for (const bool wall : {true, false}) { // the sides of a wall count more than what is over it
+        for (int c = 0; c < mesh.cells(); ++c) {
+            if (result.soil[c] || inside[c]) {
+                continue;
+            }
+            double centre = 0;
+            for (int k = 0; k < mesh.corners; ++k) {
+                centre += mesh.r[mesh.node(c, k)] / mesh.corners;
+            }
+            if (overWall(state.bodies, centre) == wall) {
+                setSurface(c, centre);
             }
         }
     }

@@ -142,6 +142,9 @@ void ExplicitStep<Shape, phases>::classifyCells(State& state)
                     voidCells_.push_back(c);
                 }
             }
+            // Nodes of several take the pressure of the last: that of a side rather than of what is over a
+            // wall.
+            std::ranges::stable_partition(voidCells_, [this](int c) { return overWall_[c] != 0; });
         }
         // Sums of cells that went empty must not linger.
         for (int c = 0; c < cells; ++c) {

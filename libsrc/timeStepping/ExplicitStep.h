@@ -546,6 +546,7 @@ private:
     std::vector<std::array<bool, 2>> solidHeld_;   ///< per node of the liquid's boundary and direction
     std::vector<LiquidProperties> liquid_;         ///< per material
     std::vector<int> freeSurface_;                 ///< per cell: the free surface that its void would be of
+    std::vector<unsigned char> overWall_;          ///< per cell: at the radius of a wall
     std::vector<int> voidCells_;                   ///< empty cells with active nodes
     bool pumped_ = false;                          ///< a free surface has a given flow
     std::vector<std::array<double, 2>> voidForce_; ///< per corner, of a unit pressure in the void; with pumps

@@ -17,12 +17,14 @@ template <class Shape, int phases>
 void ExplicitStep<Shape, phases>::findFreeSurfaces(const State& state)
 {
     freeSurface_.assign(state.mesh.cells(), -1);
+    overWall_.assign(state.mesh.cells(), 0);
     for (int c = 0; c < state.mesh.cells(); ++c) {
         double centre = 0;
         for (int k = 0; k < corners; ++k) {
             centre += state.mesh.r[cellNodes_[c * corners + k]] / corners;
         }
         freeSurface_[c] = freeSurfaceAt(scene_.freeSurfaces, state.bodies, centre);
+        overWall_[c] = overWall(state.bodies, centre);
     }
 }
 
