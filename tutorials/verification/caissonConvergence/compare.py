@@ -48,4 +48,4 @@ if len(runs) > 1:
     differences = forces[:-1] / forces[-1] - 1
     v.report(f"jacked caisson: force over that with {v.cells(runs[-1])} cells", runs[:-1],
              [row[np.argmax(np.abs(row))] for row in differences],
-             target=0.15 if v.cells(runs[-1]) > 2 else 0.1)
+             target=0.1)
