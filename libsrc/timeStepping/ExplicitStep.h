@@ -351,6 +351,8 @@ private:
     double sumLiquidByFours(const MaterialPoints& points, int c, std::array<Four, corners>& inertia,
                             std::array<Four, corners>& volumes) const
         requires hasFours;
+    [[nodiscard]] bool holdsItsPoints(const MaterialPoints& points, int c) const
+        requires hasFours;
     void moveByFours(State& state, double dt, int c, const FilledStrain& strain)
         requires hasFours;
     void strainByFours(const int* cells, int count, double dt, FilledStrain* strains) const

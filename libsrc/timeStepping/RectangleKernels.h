@@ -85,6 +85,24 @@ void ExplicitStep<Shape, phases>::forPieces(const WorkList& list, const May& may
     });
 }
 
+/// Whether no point has left the cell, nor one that lies behind its points in the storage.
+template <class Shape, int phases>
+bool ExplicitStep<Shape, phases>::holdsItsPoints(const MaterialPoints& points, int c) const
+    requires hasFours
+{
+    const typename Shape::Cell cell = cells_[c];
+    bool holds = true;
+    forFours(
+        pointCells_.begin(c), pointCells_.end(c),
+        points.size(), [&](const auto& p) __attribute__((always_inline)) {
+            const Four r = p.of(points.r);
+            const Four z = p.of(points.z);
+            holds = holds &&
+                    !any_of(r < cell.r0 || r > cell.r0 + cell.dr || z < cell.z0 || z > cell.z0 + cell.dz);
+        });
+    return holds;
+}
+
 /// Mass, momenta and drag of the liquid, volume and pore volume at the corners.
 /// @return the sum of volume times excess pressure
 template <class Shape, int phases>

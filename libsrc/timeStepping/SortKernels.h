@@ -105,6 +105,11 @@ void ExplicitStep<Shape, phases>::relocate(State& state, bool sorts)
             if (resting(c)) {
                 continue;
             }
+            if constexpr (hasFours) {
+                if (holdsItsPoints(points, c)) {
+                    continue;
+                }
+            }
             for (const int* i = pointCells_.begin(c); i != pointCells_.end(c); ++i) {
                 if (Shape::contains(cells_[c], points.r[*i], points.z[*i])) {
                     continue;
