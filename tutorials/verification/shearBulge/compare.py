@@ -68,7 +68,7 @@ print("\nThe same with integration points, which does not reach the target of 2e
 print("cross cells. Error of the displacement: " + ", ".join(
     f"{v.cells(run)}: {error:.2e}" for run, error in zip(runs, at_points)))
 v.report("shear bulge: hoop stress at the axis", runs, hoops, target={8: 0.2, 16: 0.1, 32: 0.05}.get(v.cells(runs[-1]), 0.025), last=False)
-v.report("shear bulge, small: displacement", runs, small, target={8: 0.05, 16: 0.015, 32: 4e-3}.get(v.cells(runs[-1]), 1e-3),
+v.report("shear bulge at a small amplitude: displacement", runs, small, target={8: 0.05, 16: 0.015, 32: 4e-3}.get(v.cells(runs[-1]), 1e-3),
          least_order=1.7, last=False)
 v.report("shear bulge: displacement", runs, errors, target={8: 0.05, 16: 0.011, 32: 2e-3}.get(v.cells(runs[-1]), 8e-4),
          least_order=1.7)
