@@ -59,6 +59,7 @@ SurfaceHeave::SurfaceHeave(const State& state, const RigidBody& body)
     const MaterialPoints& points = state.points;
     const auto distinctRadii = [&](const std::vector<int>& of) {
         std::vector<double> radii;
+        radii.reserve(of.size());
         for (const int p : of) {
             radii.push_back(points.initialR[p]);
         }
