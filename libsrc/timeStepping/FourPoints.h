@@ -7,6 +7,7 @@
 #include <bit>
 #include <cstddef>
 #include <functional>
+#include <type_traits>
 #include <vector>
 
 namespace caisson {
@@ -117,23 +118,32 @@ template <class Work>
     }
 }
 
-/// Rows become columns.
-[[gnu::always_inline]] inline void transpose(std::array<Four, 4>& rows)
+/// Rows become columns. Real: Four (a template, so that its other branch is none of the processors without
+/// AVX2).
+template <class Real>
+[[gnu::always_inline]] inline void transpose(std::array<Real, 4>& rows)
 {
-    using Vector [[gnu::vector_size(4 * sizeof(double))]] = double;
-    static_assert(sizeof(Vector) == sizeof(Four));
-    const auto a = std::bit_cast<Vector>(rows[0]);
-    const auto b = std::bit_cast<Vector>(rows[1]);
-    const auto c = std::bit_cast<Vector>(rows[2]);
-    const auto d = std::bit_cast<Vector>(rows[3]);
-    const Vector abEven = __builtin_shufflevector(a, b, 0, 4, 2, 6);
-    const Vector abOdd = __builtin_shufflevector(a, b, 1, 5, 3, 7);
-    const Vector cdEven = __builtin_shufflevector(c, d, 0, 4, 2, 6);
-    const Vector cdOdd = __builtin_shufflevector(c, d, 1, 5, 3, 7);
-    rows[0] = std::bit_cast<Four>(__builtin_shufflevector(abEven, cdEven, 0, 1, 4, 5));
-    rows[1] = std::bit_cast<Four>(__builtin_shufflevector(abOdd, cdOdd, 0, 1, 4, 5));
-    rows[2] = std::bit_cast<Four>(__builtin_shufflevector(abEven, cdEven, 2, 3, 6, 7));
-    rows[3] = std::bit_cast<Four>(__builtin_shufflevector(abOdd, cdOdd, 2, 3, 6, 7));
+    if constexpr (std::is_trivially_copyable_v<Real>) { // it is one register
+        using Vector [[gnu::vector_size(4 * sizeof(double))]] = double;
+        static_assert(sizeof(Vector) == sizeof(Real));
+        const auto a = std::bit_cast<Vector>(rows[0]);
+        const auto b = std::bit_cast<Vector>(rows[1]);
+        const auto c = std::bit_cast<Vector>(rows[2]);
+        const auto d = std::bit_cast<Vector>(rows[3]);
+        const Vector abEven = __builtin_shufflevector(a, b, 0, 4, 2, 6);
+        const Vector abOdd = __builtin_shufflevector(a, b, 1, 5, 3, 7);
+        const Vector cdEven = __builtin_shufflevector(c, d, 0, 4, 2, 6);
+        const Vector cdOdd = __builtin_shufflevector(c, d, 1, 5, 3, 7);
+        rows[0] = std::bit_cast<Real>(__builtin_shufflevector(abEven, cdEven, 0, 1, 4, 5));
+        rows[1] = std::bit_cast<Real>(__builtin_shufflevector(abOdd, cdOdd, 0, 1, 4, 5));
+        rows[2] = std::bit_cast<Real>(__builtin_shufflevector(abEven, cdEven, 2, 3, 6, 7));
+        rows[3] = std::bit_cast<Real>(__builtin_shufflevector(abOdd, cdOdd, 2, 3, 6, 7));
+    } else {
+        const std::array<Real, 4> old = rows;
+        for (int i = 0; i < 4; ++i) {
+            rows[i] = four(old[0][i], old[1][i], old[2][i], old[3][i]);
+        }
+    }
 }
 
 /// The sum of each.
