@@ -48,11 +48,12 @@ void ExplicitStep<Shape, phases>::mergePointsOf(State& state, int c)
     MaterialPoints& points = state.points;
     const std::size_t most = scene_.controls.passedPointsPerCell;
     const auto range = [&](const std::vector<double>& ofNodes) {
-        double low = ofNodes[cellNodes_[c * corners]];
+        const int* const nodes = &cellNodes_[static_cast<std::size_t>(c) * corners];
+        double low = ofNodes[nodes[0]];
         double high = low;
         for (int k = 1; k < corners; ++k) {
-            low = std::min(low, ofNodes[cellNodes_[c * corners + k]]);
-            high = std::max(high, ofNodes[cellNodes_[c * corners + k]]);
+            low = std::min(low, ofNodes[nodes[k]]);
+            high = std::max(high, ofNodes[nodes[k]]);
         }
         return high - low;
     };
