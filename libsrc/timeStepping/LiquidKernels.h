@@ -142,7 +142,7 @@ void ExplicitStep<Shape, phases>::mapLiquidToNodes(const State& state, int c)
             forceZ[k] = dilatation.volume * mean * dilatation.bz[k];
         }
         if constexpr (corners == 4) {
-            if (!meanDilatation) { // slopes as of the stress (mapCellToNodes)
+            if (!meanDilatation) { // slopes as of the stress (kernels::filledStress)
                 const auto& m = Shape::moments(cell);
                 const double x = wx / volume;
                 const double y = wy / volume;

@@ -184,6 +184,8 @@ double ExplicitStep<Shape, phases>::viscousStress(const State& state, int c, int
     return stress;
 }
 
+/// What the points of a cell put on its corners, but for the stress of a filled cell: of that `sums`
+/// (addStress).
 template <class Shape, int phases>
 void ExplicitStep<Shape, phases>::sumPoints(const State& state, int c, kernels::StressSums<double>& sums)
 {

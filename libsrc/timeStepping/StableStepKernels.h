@@ -46,7 +46,7 @@ void ExplicitStep<Shape, phases>::findStiffestMode(const State& state)
     }
 }
 
-/// What the vibrations of a cell depend on (mapCellToNodes, mapLiquidToNodes).
+/// What the vibrations of a cell depend on (sumPoints, addStress, mapLiquidToNodes).
 template <class Shape, int phases>
 typename StiffestMode<phases>::Cell ExplicitStep<Shape, phases>::modeCell(const State& state, int c) const
     requires isConstantStrain
