@@ -26,9 +26,8 @@ Simulation shearedBlock(int phases, double skew)
         }
     }
     const int soil = simulation.addMaterial(
-        "soil",
-        "law linearElastic; porosity 0.35; solidDensity 2650; youngsModulus 6e3; poissonsRatio 0.25; "
-        "intrinsicPermeability 1e-11; liquidBulkModulus 2e3;");
+        "soil", "law linearElastic; porosity 0.35; solidDensity 2650; youngsModulus 6e3; poissonsRatio 0.25; "
+                "intrinsicPermeability 1e-11; liquidBulkModulus 2e3;");
     simulation.scene.controls.phases = phases;
     simulation.setConditions("right { type slip; } bottom { type slip; } top { type slip; }");
     if (phases == 2) {
