@@ -68,6 +68,19 @@ def written(run):
     return [Points(directory) for directory in sorted(times, key=lambda directory: float(directory.name))]
 
 
+def cavity_history(run):
+    """Radius of the cavity [m] and pressure [Pa] at the written times."""
+    text = (run / "constant/pointLoads").read_text(encoding="utf-8").split("table")[1]
+    table = np.array(re.findall(r"\(([0-9.]+) +([0-9.]+)\)", text), float)
+    radius, pressure = [], []
+    for points in written(run):
+        load = read_list(run / f"{points.time:g}" / "lagrangian/materialPoints/load")[:, 0]
+        # The soil between the face and the loaded points keeps its volume.
+        radius.append(np.sqrt(points.r**2 - points.R**2 + 1)[load >= 0].mean())
+        pressure.append(np.interp(points.time, *table.T))
+    return np.array(radius), np.array(pressure)
+
+
 def processor_time(run):
     """Seconds of the processor that the steps of the solver took, output apart; of other programs all of their time."""
     if not (run / "log.axiMpmFoam").exists():
@@ -149,3 +162,21 @@ def save(figure, axes):
     axes.grid(alpha=0.3)
     figure.savefig("runs/comparison.png", dpi=150)
     print("Wrote runs/comparison.png")
+
+
+def bearing_capacity(name, factor, column):
+    """Compares the mean pressure below a circular footing (radius 1 m, undrained shear strength 1 kPa) over 2 to 3 % of
+    the radius with the exact one; column: of the force in footing.dat."""
+    strength = 1e3
+    runs = folders()
+    figure, axes = picture("settlement/radius [-]", "mean pressure/undrained shear strength [-]")
+    errors = []
+    for run in runs:
+        record = np.loadtxt(run / "postProcessing/footing/0/footing.dat")
+        depth, pressure = record[:, 1], record[:, column] / (np.pi * strength)
+        failing = (depth > 0.02) & (depth < 0.03)
+        errors.append(pressure[failing].mean() / factor - 1)
+        axes.plot(depth, pressure, "-", linewidth=1, label=f"{cells(run)} cells: {pressure[failing].mean():.3f}")
+    axes.axhline(factor, color="black", linewidth=0.8, label=f"exact: {factor:.3f}")
+    save(figure, axes)
+    report(f"{name}: bearing capacity", runs, errors, target=0.1 if cells(runs[-1]) < 16 else 0.04)

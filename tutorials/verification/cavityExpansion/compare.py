@@ -1,6 +1,5 @@
 """Pressure in the expanding cavity against the exact one at the radius that it has reached: largest deviation."""
 
-import re
 import sys
 from math import factorial
 
@@ -34,15 +33,7 @@ runs = v.folders()
 figure, axes = v.picture("radius of the cavity/initial radius [-]", "pressure/initial pressure [-]")
 errors = []
 for run in runs:
-    text = (run / "constant/pointLoads").read_text(encoding="utf-8").split("table")[1]
-    table = np.array(re.findall(r"\(([0-9.]+) +([0-9.]+)\)", text), float)
-    radius, pressure = [], []
-    for points in v.written(run):
-        load = v.read_list(run / f"{points.time:g}" / "lagrangian/materialPoints/load")[:, 0]
-        # The soil between the face and the loaded points keeps its volume.
-        radius.append(np.sqrt(points.r**2 - points.R**2 + 1)[load >= 0].mean())
-        pressure.append(np.interp(points.time, *table.T))
-    radius, pressure = np.array(radius), np.array(pressure)
+    radius, pressure = v.cavity_history(run)
     exact = np.interp(radius, EXPANSION, PRESSURE)
     grown = radius > 1.05
     errors.append(np.abs(pressure / exact - 1)[grown].max())

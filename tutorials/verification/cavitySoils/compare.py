@@ -1,6 +1,5 @@
 """Pressure in the expanding cavities against the exact one at the radius that they have reached: largest deviation."""
 
-import re
 import sys
 
 import numpy as np
@@ -8,19 +7,6 @@ from soils import SOILS
 
 sys.path.insert(0, "..")
 import verification as v  # noqa: E402
-
-
-def history(run):
-    """Radius of the cavity [m] and pressure [Pa] at the written times."""
-    text = (run / "constant/pointLoads").read_text(encoding="utf-8").split("table")[1]
-    table = np.array(re.findall(r"\(([0-9.]+) +([0-9.]+)\)", text), float)
-    radius, pressure = [], []
-    for points in v.written(run):
-        load = v.read_list(run / f"{points.time:g}" / "lagrangian/materialPoints/load")[:, 0]
-        # The soil between the face and the loaded points keeps its volume.
-        radius.append(np.sqrt(points.r**2 - points.R**2 + 1)[load >= 0].mean())
-        pressure.append(np.interp(points.time, *table.T))
-    return np.array(radius), np.array(pressure)
 
 
 runs = v.folders()
@@ -32,7 +18,7 @@ for (name, own), marker in zip(folders.items(), ".x"):
     soil = SOILS[name]
     errors[name] = []
     for k, run in enumerate(own):
-        radius, pressure = history(run)
+        radius, pressure = v.cavity_history(run)
         grown = radius > 1.05
         errors[name].append(np.abs(pressure / soil.pressure(radius) - 1)[grown].max())
         axes.plot(radius, pressure / soil.p0, marker, color=f"C{k}", markersize=4, label=f"{v.cells(run)} cells, {name}")
