@@ -75,32 +75,55 @@ void setLane(Real& to, int l, double value)
     to[l] = value;
 }
 
-/// `count` values from the f-th on; the last one again where they are fewer than the lanes.
-template <class Real>
-[[gnu::always_inline]] inline Real lanesOf(const std::vector<double>& values, int f, int count)
+/// `count` values from the f-th on; the last one again where they are fewer than the lanes. Count: int, or a
+/// constant (EveryLane).
+template <class Real, class Count>
+[[gnu::always_inline]] inline Real lanesOf(const double* values, int f, Count count)
 {
     if constexpr (std::is_same_v<Real, double>) {
         return values[f];
     } else {
         if (count == 4) {
-            return Four(values.data() + f, std::experimental::element_aligned);
+            return Four(values + f, std::experimental::element_aligned);
         }
-        const auto at = [&](int l) { return values[f + std::min(l, count - 1)]; };
+        const auto at = [&](int l) { return values[f + std::min<int>(l, count - 1)]; };
         return four(at(0), at(1), at(2), at(3));
     }
 }
+template <class Real, class Count>
+[[gnu::always_inline]] inline Real lanesOf(const std::vector<double>& values, int f, Count count)
+{
+    return lanesOf<Real>(values.data(), f, count);
+}
 
-template <class Real>
-[[gnu::always_inline]] inline void setLanes(std::vector<double>& values, int f, int count, const Real& result)
+template <class Real, class Count>
+[[gnu::always_inline]] inline void setLanes(double* values, int f, Count count, const Real& result)
 {
     if constexpr (std::is_same_v<Real, double>) {
         values[f] = result;
     } else if (count == 4) {
-        result.copy_to(values.data() + f, std::experimental::element_aligned);
+        result.copy_to(values + f, std::experimental::element_aligned);
     } else {
         for (int l = 0; l < count; ++l) {
             values[f + l] = result[l];
         }
+    }
+}
+
+/// As many as there are lanes.
+template <int lanes>
+using EveryLane = std::integral_constant<int, lanes>;
+
+/// work(first, count) for groups of `lanes`, with a constant as the count of those that are whole.
+template <int lanes, class Work>
+[[gnu::always_inline]] inline void inLanes(int begin, int end, const Work& work)
+{
+    int f = begin;
+    for (; f + lanes <= end; f += lanes) {
+        work(f, EveryLane<lanes>{});
+    }
+    if (f < end) {
+        work(f, end - f);
     }
 }
 
@@ -169,7 +192,11 @@ class FrozenCells
 public:
     void resize(std::size_t size) { cells_.resize(size); }
     void set(int f, const Cell& cell) { cells_[f] = cell; }
-    [[nodiscard]] const Cell& at(int f, int) const { return cells_[f]; }
+    template <class Count>
+    [[nodiscard]] const Cell& at(int f, Count) const
+    {
+        return cells_[f];
+    }
 
 private:
     std::vector<Cell> cells_;
@@ -246,7 +273,8 @@ struct Rectangle
                 values_[j][f] = all[j];
             }
         }
-        [[nodiscard]] Integrals<Lanes<lanes>> at(int f, int count) const
+        template <class Count>
+        [[gnu::always_inline]] [[nodiscard]] Integrals<Lanes<lanes>> at(int f, Count count) const
         {
             using Real = Lanes<lanes>;
             return {lanesOf<Real>(values_[0], f, count), lanesOf<Real>(values_[1], f, count),

@@ -108,7 +108,7 @@ private:
         double mass = 0, momentumR = 0, momentumZ = 0;
         double fullMass = 0; ///< what it would be in a cell evenly filled
         double forceR = 0, forceZ = 0;
-        double spare[2] = {};
+        double pressureR = 0, pressureZ = 0; ///< two phases: of the excess pore pressure on the mixture
     };
 
     /// Nodal result of a step.
@@ -125,14 +125,12 @@ private:
     };
 
     /// What the liquid in the points of one cell adds to one of its corners.
-    struct alignas(32) LiquidCorner
+    struct alignas(64) LiquidCorner
     {
         double mass = 0, momentumR = 0, momentumZ = 0;
         double drag = 0;                                       ///< integral of N n^2 viscosity/permeability
         double volume = 0, poreVolume = 0, pressureVolume = 0; ///< of N, N n and N times excess pore pressure
         double spare = 0;
-        double forceR = 0, forceZ = 0; ///< of the excess pore pressure on the mixture
-        double spares[2] = {};
     };
 
     /// Sum of what the cells around a node have on it, four numbers at once.
@@ -153,6 +151,26 @@ private:
             setFour((&sum.mass)[4 * j], sums[j]);
         }
         return sum;
+    }
+
+    /// work(node) for nodes that gather. What cells have on the nodes after next comes into the cache
+    /// meanwhile: corners of a node are in lines far from each other, which the processor does not foresee.
+    template <class Work>
+    void forGathered(std::span<const int> nodes, const Work& work) const
+    {
+        constexpr std::size_t ahead = 6;
+        for (std::size_t j = 0; j < nodes.size(); ++j) {
+            if (j + ahead < nodes.size()) {
+                const int i = nodes[j + ahead];
+                for (int k = nodeCorners_.start[i]; k < nodeCorners_.start[i + 1]; ++k) {
+                    __builtin_prefetch(&cornerSums_[nodeCorners_.item[k]]);
+                    if constexpr (twoPhase) {
+                        __builtin_prefetch(&liquidCorners_[nodeCorners_.item[k]]);
+                    }
+                }
+            }
+            work(nodes[j]);
+        }
     }
 
     /// What the kernels need of a material for its liquid.
@@ -236,18 +254,26 @@ private:
     {
         std::vector<std::array<int, corners>> node;           ///< among the nodes of such cells
         std::array<std::vector<double>, 4> stress;            ///< mean [Pa]
-        std::array<std::vector<double>, 4> stressBefore;      ///< the same, before the last step [Pa]
         std::array<std::vector<double>, 4> slopeXi, slopeEta; ///< of the stress [Pa]
-        std::array<std::vector<double>, 4> strain;            ///< increments of the step
-        std::vector<double> spin;                             ///< in the step
         std::vector<double> shareXi,
             shareEta;                   ///< of the slopes at the points that a cell has (kernels::Spread)
+        std::vector<double> tangent;    ///< share of the elastic stiffness that the mean has shown last
         std::vector<double> dilatation; ///< since the points rest
         std::vector<double> pressure;   ///< of the liquid in excess, mean [Pa]
         std::vector<double> porosity;   ///< mean
         std::vector<std::vector<double>> state; ///< variables of the laws
 
         void resize(std::size_t size);
+    };
+
+    /// Some of them, while they are strained.
+    struct FemBlock
+    {
+        static constexpr int size = 64;
+        int begin; ///< among the cells at rest
+        alignas(64) double strain[4][size];
+        alignas(64) double spin[size];
+        alignas(64) double stressBefore[4][size]; ///< mean, before the step [Pa]
     };
 
     /// The liquid of such a cell.
@@ -285,9 +311,10 @@ private:
     /// momentum is that of its own velocity, and only forces have to be summed.
     struct FemInner
     {
-        double inverseMass, weightR, weightZ;
+        double weightR, weightZ, inverseMass;
         double inverseLiquidMass, drag, porosity,
             liquidShare; ///< drag: not times the step; share: of the mass
+        double spare;
     };
 
     /// Cells or nodes in the order of work, and where the part of each thread begins, and the last one ends.
@@ -435,9 +462,9 @@ private:
     void addRemappedMomentum(const State& state, int c);
     void remapMomentum(const State& state, int c);
     [[nodiscard]] std::array<double, 2> affineVelocity(const State& state, int p, int corner) const;
-    void updateBatch(int material, int thread, int begin, int end,
-                     const std::array<std::vector<double>, 4>& strain, const std::vector<double>& spin,
-                     std::array<std::vector<double>, 4>& stress, std::vector<std::vector<double>>& variables);
+    void updateBatch(int material, int thread, int begin, int end, const std::array<const double*, 4>& strain,
+                     const double* spin, std::array<std::vector<double>, 4>& stress,
+                     std::vector<std::vector<double>>& variables);
     void updateStress(State& state, bool resting);
     template <class Work>
     void inBlocks(std::span<const PointCells::Run> runs, const Work& work) const;
@@ -454,15 +481,19 @@ private:
     void numberFemNodes();
     void sampleFemCell(int c);
     void sumInnerNodes();
-    void mapFemCellsToNodes(const State& state);
-    template <class Real>
-    void addFemForces(const State& state, int f, int count);
+    void mapFemCellsToNodes();
+    template <class Real, class Count>
+    void addFemForces(const State& state, int material, int f, Count count);
     void mapFemEdgeToNodes(int f);
     void solveInnerNodes(double dt);
+    [[nodiscard]] FemForce innerForce(int j) const;
+    [[nodiscard]] bool solveFourInnerNodes(int j, double dt)
+        requires(hasFours && twoPhase);
     void keepFemMomentum(int c);
-    template <class Real>
-    [[nodiscard]] Real tangentShare(int f, int count);
-    void strainFemCells(State& state, double dt, int f, int count);
+    template <class Real, class Count>
+    void setTangentShare(const FemBlock& block, int material, int f, Count count);
+    template <class Count>
+    void strainFemCells(State& state, double dt, FemBlock& block, int material, int f, Count count);
     void updateFemCells(State& state, double dt);
     void accumulateFemNodes(double dt);
     void returnInnerMotion();
@@ -582,6 +613,7 @@ private:
     std::vector<unsigned char> rests_; ///< per cell: is one
     std::vector<FemCell> femCells_;
     std::vector<FemLiquidCell> femLiquidCells_;
+    std::vector<int> femEdge_;                    ///< FEM cells with a node that is no inner one
     std::vector<unsigned char> restless_;         ///< per thread: points have moved too far to rest on
     std::vector<FemNode> femNodes_;               ///< nodes of FEM cells: the inner ones, and the others
     int innerNodes_ = 0;                          ///< of these

@@ -544,21 +544,21 @@ void ExplicitStep<Shape, phases>::inBlocks(std::span<const PointCells::Run> runs
     });
 }
 
-/// The law on the elements from `begin` to before `end` of arrays of points or cells.
+/// The law on the elements from `begin` to before `end` of arrays of points or cells; strain and spin are
+/// those of these.
 template <class Shape, int phases>
 void ExplicitStep<Shape, phases>::updateBatch(int material, int thread, int begin, int end,
-                                              const std::array<std::vector<double>, 4>& strain,
-                                              const std::vector<double>& spin,
+                                              const std::array<const double*, 4>& strain, const double* spin,
                                               std::array<std::vector<double>, 4>& stress,
                                               std::vector<std::vector<double>>& variables)
 {
     StressBatch batch;
     batch.size = end - begin;
     for (int j = 0; j < 4; ++j) {
-        batch.strain[j] = strain[j].data() + begin;
+        batch.strain[j] = strain[j];
         batch.stress[j] = stress[j].data() + begin;
     }
-    batch.spin = spin.data() + begin;
+    batch.spin = spin;
     std::vector<double*>& pointers = statePointers_[thread];
     for (std::size_t k = 0; k < variables.size(); ++k) {
         pointers[k] = variables[k].data() + begin;
@@ -573,7 +573,9 @@ void ExplicitStep<Shape, phases>::updateStress(State& state, bool resting)
 {
     MaterialPoints& points = state.points;
     inBlocks(pointCells_.runs(resting), [&](int thread, int material, int begin, int end) {
-        updateBatch(material, thread, begin, end, strain_, spin_, points.stress, points.state);
+        updateBatch(material, thread, begin, end,
+                    {&strain_[0][begin], &strain_[1][begin], &strain_[2][begin], &strain_[3][begin]},
+                    &spin_[begin], points.stress, points.state);
     });
 }
 

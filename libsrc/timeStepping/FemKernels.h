@@ -77,14 +77,15 @@ int ExplicitStep<Shape, phases>::chooseRest(const MaterialPoints& points,
 template <class Shape, int phases>
 void ExplicitStep<Shape, phases>::FemFields::resize(std::size_t size)
 {
-    for (auto* four : {&stress, &stressBefore, &slopeXi, &slopeEta, &strain}) {
+    for (auto* four : {&stress, &slopeXi, &slopeEta}) {
         for (std::vector<double>& component : *four) {
             component.resize(size);
         }
     }
-    for (auto* values : {&spin, &shareXi, &shareEta, &pressure, &porosity}) {
+    for (auto* values : {&shareXi, &shareEta, &pressure, &porosity}) {
         values->resize(size);
     }
+    tangent.assign(size, 1);
     dilatation.assign(size, 0);
     for (std::vector<double>& variable : state) {
         variable.resize(size);
@@ -242,6 +243,7 @@ void ExplicitStep<Shape, phases>::numberFemNodes()
     femStart_.resize(femNodes_.size());
     femHistory_.assign(femNodes_.size(), {});
     femCorners_.start.assign(innerNodes_ + 1, 0);
+    femEdge_.clear();
     fem_.node.resize(femCells_.size());
     for (std::size_t f = 0; f < femCells_.size(); ++f) {
         FemCell& fem = femCells_[f];
@@ -255,6 +257,9 @@ void ExplicitStep<Shape, phases>::numberFemNodes()
             if (j < innerNodes_) {
                 ++femCorners_.start[j + 1];
             }
+        }
+        if (!fem.inner) {
+            femEdge_.push_back(static_cast<int>(f));
         }
     }
     std::partial_sum(femCorners_.start.begin(), femCorners_.start.end(), femCorners_.start.begin());
@@ -348,7 +353,71 @@ void ExplicitStep<Shape, phases>::sumInnerNodes()
     });
 }
 
-/// The inner nodes: what solveNodes and accumulateFemNodes do elsewhere, in one go.
+namespace kernels {
+
+/// An inner node, or four of them.
+template <class Real>
+struct InnerNodes
+{
+    Real forceR, forceZ, pressureR, pressureZ; ///< of the stress of the soil, of the excess pore pressure
+    Real inverseMass, inverseLiquidMass, drag, porosity, liquidShare; ///< as of FemInner
+    Real vr, vz, relativeR, relativeZ;                                ///< FemMotion
+    Real strainR, strainZ, keep;                                      ///< FemHistory
+
+    /// What solveNodes and accumulateFemNodes do elsewhere, in one go.
+    template <int phases>
+    [[gnu::always_inline]] void move(double dt, double damping)
+    {
+        using std::abs, std::copysign;
+        if constexpr (phases == 2) {
+            const Real ofLiquidR = porosity * pressureR;
+            const Real ofLiquidZ = porosity * pressureZ;
+            forceR += pressureR - ofLiquidR;
+            forceZ += pressureZ - ofLiquidZ;
+            if (damping > 0) { // as in solveTwoPhaseNode
+                forceR -= copysign(Real(damping * abs(forceR + ofLiquidR)), vr);
+                forceZ -= copysign(Real(damping * abs(forceZ + ofLiquidZ)), vz);
+            }
+            const Real solidR = dt * forceR * inverseMass;
+            const Real solidZ = dt * forceZ * inverseMass;
+            const Real freeR = relativeR + dt * ofLiquidR * inverseLiquidMass - solidR;
+            const Real freeZ = relativeZ + dt * ofLiquidZ * inverseLiquidMass - solidZ;
+            const Real kept = 1 / (1 + dt * drag * (inverseMass + inverseLiquidMass));
+            const Real given = liquidShare * (1 - kept); // by drag, to the solid
+            vr = vr + solidR + given * freeR;
+            vz = vz + solidZ + given * freeZ;
+            relativeR = kept * freeR;
+            relativeZ = kept * freeZ;
+            keep *= kept;
+        } else {
+            if (damping > 0) {
+                forceR -= copysign(Real(damping * abs(forceR)), vr);
+                forceZ -= copysign(Real(damping * abs(forceZ)), vz);
+            }
+            vr += dt * forceR * inverseMass;
+            vz += dt * forceZ * inverseMass;
+        }
+        strainR += dt * vr;
+        strainZ += dt * vz;
+    }
+};
+
+} // namespace kernels
+
+/// What the cells at rest around an inner node put on it.
+template <class Shape, int phases>
+[[gnu::always_inline]] inline auto ExplicitStep<Shape, phases>::innerForce(int j) const -> FemForce
+{
+    FemForce force{};
+    for (int n = femCorners_.start[j]; n < femCorners_.start[j + 1]; ++n) {
+        const FemForce& ofCell = femForces_[femCorners_.item[n]];
+        for (std::size_t d = 0; d < force.size(); ++d) {
+            force[d] += ofCell[d];
+        }
+    }
+    return force;
+}
+
 template <class Shape, int phases>
 void ExplicitStep<Shape, phases>::solveInnerNodes(double dt)
 {
@@ -357,59 +426,96 @@ void ExplicitStep<Shape, phases>::solveInnerNodes(double dt)
     const auto solve = [&](int j) {
         const FemInner& inner = femInner_[j];
         FemMotion& motion = femMotion_[j];
-        FemForce force{};
-        for (int n = femCorners_.start[j]; n < femCorners_.start[j + 1]; ++n) {
-            const FemForce& ofCell = femForces_[femCorners_.item[n]];
-            for (std::size_t d = 0; d < force.size(); ++d) {
-                force[d] += ofCell[d];
-            }
-        }
-        double forceR = force[0] + inner.weightR;
-        double forceZ = force[1] + inner.weightZ;
-        if (seepage) {
-            forceR += waterLoad_[femNodes_[j].node][0];
-            forceZ += waterLoad_[femNodes_[j].node][1];
-        }
         FemHistory& history = femHistory_[j];
-        if constexpr (twoPhase) {
-            const double n = inner.porosity;
-            const double ofLiquidR = n * force[2];
-            const double ofLiquidZ = n * force[3];
-            forceR += force[2] - ofLiquidR;
-            forceZ += force[3] - ofLiquidZ;
-            if (damping > 0) { // as in solveTwoPhaseNode
-                forceR -= std::copysign(damping * std::abs(forceR + ofLiquidR), motion[0]);
-                forceZ -= std::copysign(damping * std::abs(forceZ + ofLiquidZ), motion[1]);
-            }
-            const double solidR = dt * forceR * inner.inverseMass;
-            const double solidZ = dt * forceZ * inner.inverseMass;
-            const double freeR = motion[2] + dt * ofLiquidR * inner.inverseLiquidMass - solidR;
-            const double freeZ = motion[3] + dt * ofLiquidZ * inner.inverseLiquidMass - solidZ;
-            const double keep = 1 / (1 + dt * inner.drag * (inner.inverseMass + inner.inverseLiquidMass));
-            const double given = inner.liquidShare * (1 - keep); // by drag, to the solid
-            motion = {motion[0] + solidR + given * freeR, motion[1] + solidZ + given * freeZ, keep * freeR,
-                      keep * freeZ};
-            history.keep *= keep;
-        } else {
-            if (damping > 0) {
-                forceR -= std::copysign(damping * std::abs(forceR), motion[0]);
-                forceZ -= std::copysign(damping * std::abs(forceZ), motion[1]);
-            }
-            motion[0] += dt * forceR * inner.inverseMass;
-            motion[1] += dt * forceZ * inner.inverseMass;
+        const FemForce force = innerForce(j);
+        kernels::InnerNodes<double> node{};
+        node.forceR = force[0] + inner.weightR;
+        node.forceZ = force[1] + inner.weightZ;
+        if (seepage) {
+            node.forceR += waterLoad_[femNodes_[j].node][0];
+            node.forceZ += waterLoad_[femNodes_[j].node][1];
         }
-        history.strainR += dt * motion[0];
-        history.strainZ += dt * motion[1];
+        node.inverseMass = inner.inverseMass;
+        node.vr = motion[0];
+        node.vz = motion[1];
+        if constexpr (twoPhase) {
+            node.pressureR = force[2];
+            node.pressureZ = force[3];
+            node.inverseLiquidMass = inner.inverseLiquidMass;
+            node.drag = inner.drag;
+            node.porosity = inner.porosity;
+            node.liquidShare = inner.liquidShare;
+            node.relativeR = motion[2];
+            node.relativeZ = motion[3];
+        }
+        node.strainR = history.strainR;
+        node.strainZ = history.strainZ;
+        node.keep = history.keep;
+        node.template move<phases>(dt, damping);
+        if constexpr (twoPhase) {
+            motion = {node.vr, node.vz, node.relativeR, node.relativeZ};
+        } else {
+            motion = {node.vr, node.vz};
+        }
+        history.strainR = node.strainR;
+        history.strainZ = node.strainZ;
+        history.keep = node.keep;
         return std::max(std::abs(history.strainR), std::abs(history.strainZ)) > history.mayMove;
     };
     std::ranges::fill(restless_, 0);
     threads_.share(innerNodes_, nodesPerPiece, [&](int thread, int begin, int end) {
         bool restless = false;
-        for (int j = begin; j < end; ++j) {
+        int j = begin;
+        if constexpr (hasFours && twoPhase) {
+            for (; j + 4 <= end; j += 4) {
+                restless = solveFourInnerNodes(j, dt) || restless;
+            }
+        }
+        for (; j < end; ++j) {
             restless = solve(j) || restless;
         }
         restless_[thread] |= restless ? 1 : 0;
     });
+}
+
+/// @returns whether the points round one of them have moved too far to rest on
+template <class Shape, int phases>
+[[gnu::always_inline]] inline bool ExplicitStep<Shape, phases>::solveFourInnerNodes(int j, double dt)
+    requires(hasFours && twoPhase)
+{
+    const auto numbersOf = []<class Element>(const Element&) { return sizeof(Element) / sizeof(double); };
+    std::array<FemForce, 4> forces;
+    for (int l = 0; l < 4; ++l) {
+        forces[l] = innerForce(j + l);
+    }
+    FemInner& inner = femInner_[j];
+    FemMotion& motion = femMotion_[j];
+    FemHistory& history = femHistory_[j];
+    const auto [forceR, forceZ, pressureR, pressureZ] = columns(forces[0].data(), 4);
+    const auto [weightR, weightZ, inverseMass, inverseLiquidMass] = columns(&inner.weightR, numbersOf(inner));
+    const auto [drag, porosity, liquidShare, none] = columns(&inner.drag, numbersOf(inner));
+    const auto [vr, vz, relativeR, relativeZ] = columns(motion.data(), numbersOf(motion));
+    const auto [strainR, strainZ, keep, mayMove] = columns(&history.strainR, numbersOf(history));
+    kernels::InnerNodes<Four> nodes{forceR + weightR,
+                                    forceZ + weightZ,
+                                    pressureR,
+                                    pressureZ,
+                                    inverseMass,
+                                    inverseLiquidMass,
+                                    drag,
+                                    porosity,
+                                    liquidShare,
+                                    vr,
+                                    vz,
+                                    relativeR,
+                                    relativeZ,
+                                    strainR,
+                                    strainZ,
+                                    keep};
+    nodes.template move<phases>(dt, scene_.controls.localDamping);
+    setColumns(motion.data(), numbersOf(motion), {nodes.vr, nodes.vz, nodes.relativeR, nodes.relativeZ});
+    setColumns(&history.strainR, numbersOf(history), {nodes.strainR, nodes.strainZ, nodes.keep, mayMove});
+    return any_of(max(abs(nodes.strainR), abs(nodes.strainZ)) > mayMove);
 }
 
 /// Step that the cells at rest allow.
@@ -447,8 +553,9 @@ template <class Real>
 
 /// What `count` cells at rest from the f-th on put on their corners.
 template <class Shape, int phases>
-template <class Real>
-void ExplicitStep<Shape, phases>::addFemForces(const State& state, int f, int count)
+template <class Real, class Count>
+[[gnu::always_inline]] inline void ExplicitStep<Shape, phases>::addFemForces(const State& state, int material,
+                                                                             int f, Count count)
 {
     const auto& cell = femShapes_.at(f, count);
     shapes::StressField<corners, Real> stress;
@@ -459,11 +566,10 @@ void ExplicitStep<Shape, phases>::addFemForces(const State& state, int f, int co
             stress[2][j] = shapes::lanesOf<Real>(fem_.slopeEta[j], f, count);
         }
     }
-    if (scene_.controls.linearBulkViscosity != 0 || scene_.controls.quadraticBulkViscosity != 0) {
+    if (scene_.controls.isViscous()) {
         Real viscous = shapes::zero<Real>();
         for (int l = 0; l < count; ++l) {
-            const FemCell& fem = femCells_[f + l];
-            shapes::setLane(viscous, l, viscousStress(state, fem.cell, fem.material));
+            shapes::setLane(viscous, l, viscousStress(state, femCells_[f + l].cell, material));
         }
         for (int j = 0; j < 3; ++j) {
             stress[0][j] += viscous;
@@ -496,21 +602,16 @@ void ExplicitStep<Shape, phases>::addFemForces(const State& state, int f, int co
     }
 }
 
+/// Their forces are known since they were strained.
 template <class Shape, int phases>
-void ExplicitStep<Shape, phases>::mapFemCellsToNodes(const State& state)
+void ExplicitStep<Shape, phases>::mapFemCellsToNodes()
 {
-    constexpr int lanes = Shape::lanes;
     if (femInnerOld_) {
         sumInnerNodes();
     }
-    inBlocks(femRuns_, [&](int, int, int begin, int end) {
-        for (int f = begin; f < end; f += lanes) {
-            addFemForces<shapes::Lanes<lanes>>(state, f, std::min(lanes, end - f));
-        }
-        for (int f = begin; f < end; ++f) {
-            if (!femCells_[f].inner) {
-                mapFemEdgeToNodes(f);
-            }
+    threads_.share(static_cast<int>(femEdge_.size()), cellsPerPiece, [&](int, int begin, int end) {
+        for (int i = begin; i < end; ++i) {
+            mapFemEdgeToNodes(femEdge_[i]);
         }
     });
 }
@@ -538,16 +639,15 @@ void ExplicitStep<Shape, phases>::mapFemEdgeToNodes(int f)
             const FemLiquidCell& liquid = femLiquidCells_[f];
             const LiquidNode& old = liquidNodes_[i];
             const double liquidMass = inertia * liquid.mass[k];
+            cornerSums_[c * corners + k].pressureR = force[2];
+            cornerSums_[c * corners + k].pressureZ = force[3];
             liquidCorners_[c * corners + k] = {liquidMass,
                                                liquidMass * (node.vr + old.relativeVr),
                                                liquidMass * (node.vz + old.relativeVz),
                                                liquid.drag[k],
                                                liquid.volume[k],
                                                liquid.poreVolume[k],
-                                               fem_.pressure[f] * liquid.volume[k],
-                                               0,
-                                               force[2],
-                                               force[3]};
+                                               fem_.pressure[f] * liquid.volume[k]};
         }
     }
 }
@@ -629,23 +729,19 @@ void ExplicitStep<Shape, phases>::returnInnerMotion()
     });
 }
 
-/// Share of the elastic stiffness in shear that the mean of a cell showed in the step before: 1 where it is
-/// elastic. Slopes that stayed elastic where the mean yields would make the soil round a tip stiffer by
-/// several per cent.
+/// Share of the elastic stiffness in shear that the mean of a cell has shown in this step, for the slopes in
+/// the next: 1 where it is elastic. Slopes that stayed elastic where the mean yields would make the soil
+/// round a tip stiffer by several per cent.
 template <class Shape, int phases>
-template <class Real>
-[[gnu::always_inline]] inline Real ExplicitStep<Shape, phases>::tangentShare(int f, int count)
+template <class Real, class Count>
+[[gnu::always_inline]] inline void
+ExplicitStep<Shape, phases>::setTangentShare(const FemBlock& block, int material, int f, Count count)
 {
     Real change[4], strain[4];
     for (int j = 0; j < 4; ++j) {
-        const Real now = shapes::lanesOf<Real>(fem_.stress[j], f, count);
-        change[j] = now - shapes::lanesOf<Real>(fem_.stressBefore[j], f, count);
-        strain[j] = shapes::lanesOf<Real>(fem_.strain[j], f, count);
-        shapes::setLanes(fem_.stressBefore[j], f, count, now);
-    }
-    const int material = femCells_[f].material;
-    if (!scene_.materials[material].law->plastic() || femSteps_ == 0) {
-        return shapes::zero<Real>() + 1;
+        change[j] = shapes::lanesOf<Real>(fem_.stress[j], f, count) -
+                    shapes::lanesOf<Real>(block.stressBefore[j], f - block.begin, count);
+        strain[j] = shapes::lanesOf<Real>(block.strain[j], f - block.begin, count);
     }
     const double shear = shearModulus_[material];
     const Real dilatation = (strain[0] + strain[1] + strain[2]) / 3;
@@ -657,22 +753,25 @@ template <class Real>
         elastic += deviator * deviator;
         actual += deviator * (change[j] - pressure);
     }
-    return kernels::shareOf<Real>(actual, elastic);
+    shapes::setLanes(fem_.tangent.data(), f, count, kernels::shareOf<Real>(actual, elastic));
 }
 
 /// Strains `count` cells at rest of one material, from the f-th on.
 template <class Shape, int phases>
-void ExplicitStep<Shape, phases>::strainFemCells(State& state, double dt, int f, int count)
+template <class Count>
+[[gnu::always_inline]] inline void ExplicitStep<Shape, phases>::strainFemCells(State& state, double dt,
+                                                                               FemBlock& block, int material,
+                                                                               int f, Count count)
 {
     using Real = shapes::Lanes<Shape::lanes>;
+    const int inBlock = f - block.begin;
     const bool nodalAverage = scene_.controls.locking == SolutionControls::Locking::nodalAverage;
-    const int material = femCells_[f].material;
     const auto& cell = femShapes_.at(f, count);
     Real vr[corners], vz[corners];
     [[maybe_unused]] Real relativeR[corners], relativeZ[corners];
     for (int k = 0; k < corners; ++k) {
         const auto motion = [&](int l) -> const FemMotion& {
-            return femMotion_[fem_.node[f + std::min(l, count - 1)][k]];
+            return femMotion_[fem_.node[f + std::min<int>(l, count - 1)][k]];
         };
         if constexpr (std::is_same_v<Real, double>) {
             vr[k] = motion(0)[0];
@@ -699,17 +798,19 @@ void ExplicitStep<Shape, phases>::strainFemCells(State& state, double dt, int f,
     shapes::VelocityGradient<corners, Real> rate;
     Shape::velocityGradient(cell, vr, vz, rate);
     if constexpr (corners == 4) {
-        const Real shear = tangentShare<Real>(f, count) * (shearModulus_[material] * dt);
+        const Real shear = shapes::lanesOf<Real>(fem_.tangent, f, count) * (shearModulus_[material] * dt);
         const auto updateSlopes = [&](const Real(&slope)[5], const std::vector<double>& shareAtPoints,
-                                      std::array<std::vector<double>, 4>& stress) {
+                                      std::array<std::vector<double>, 4>& stress)
+            __attribute__((always_inline))
+        {
             const Real share = shear * shapes::lanesOf<Real>(shareAtPoints, f, count);
             const Real third = (slope[0] + slope[1] + slope[2]) / 3; // all points share one dilatation
             for (int j = 0; j < 3; ++j) {
                 const Real sum = shapes::lanesOf<Real>(stress[j], f, count) + 2 * share * (slope[j] - third);
-                shapes::setLanes(stress[j], f, count, sum);
+                shapes::setLanes(stress[j].data(), f, count, sum);
             }
             const Real sum = shapes::lanesOf<Real>(stress[3], f, count) + share * (slope[3] + slope[4]);
-            shapes::setLanes(stress[3], f, count, sum);
+            shapes::setLanes(stress[3].data(), f, count, sum);
         };
         updateSlopes(rate[1], fem_.shareXi, fem_.slopeXi);
         updateSlopes(rate[2], fem_.shareEta, fem_.slopeEta);
@@ -722,15 +823,19 @@ void ExplicitStep<Shape, phases>::strainFemCells(State& state, double dt, int f,
     const Real shift = (trace - own) / 3;
     for (int j = 0; j < 3; ++j) {
         const Real strain = dt * (rate[0][j] + shift);
-        shapes::setLanes(fem_.strain[j], f, count, strain);
+        shapes::setLanes(block.strain[j], inBlock, count, strain);
     }
     const Real shear = dt * (rate[0][3] + rate[0][4]);
     const Real spin = 0.5 * dt * (rate[0][4] - rate[0][3]);
     const Real dilatation = shapes::lanesOf<Real>(fem_.dilatation, f, count) + dt * trace;
-    shapes::setLanes(fem_.strain[3], f, count, shear);
-    shapes::setLanes(fem_.spin, f, count, spin);
-    shapes::setLanes(fem_.dilatation, f, count, dilatation);
-    for (int l = 0; l < count; ++l) {
+    shapes::setLanes(block.strain[3], inBlock, count, shear);
+    shapes::setLanes(block.spin, inBlock, count, spin);
+    shapes::setLanes(fem_.dilatation.data(), f, count, dilatation);
+    for (int j = 0; j < 4; ++j) {
+        shapes::setLanes(block.stressBefore[j], inBlock, count,
+                         shapes::lanesOf<Real>(fem_.stress[j], f, count));
+    }
+    for (int l = 0; scene_.controls.isViscous() && l < count; ++l) {
         state.cellDivergence[femCells_[f + l].cell] = shapes::lane(trace, l);
     }
     if constexpr (twoPhase) {
@@ -753,7 +858,7 @@ void ExplicitStep<Shape, phases>::strainFemCells(State& state, double dt, int f,
         } else {
             pressure -= dt * liquid_[material].bulkModulus / n * (trace + n * flow);
         }
-        shapes::setLanes(fem_.pressure, f, count, pressure);
+        shapes::setLanes(fem_.pressure.data(), f, count, pressure);
     }
 }
 
@@ -773,11 +878,25 @@ void ExplicitStep<Shape, phases>::updateFemCells(State& state, double dt)
             }
         }
     });
-    inBlocks(femRuns_, [&](int thread, int material, int begin, int end) {
-        for (int f = begin; f < end; f += Shape::lanes) {
-            strainFemCells(state, dt, f, std::min(Shape::lanes, end - f));
+    using Real = shapes::Lanes<Shape::lanes>;
+    inBlocks(femRuns_, [&](int thread, int material, int from, int to) {
+        const bool plastic = corners == 4 && scene_.materials[material].law->plastic();
+        for (int begin = from; begin < to; begin += FemBlock::size) {
+            const int end = std::min(begin + FemBlock::size, to);
+            FemBlock block;
+            block.begin = begin;
+            shapes::inLanes<Shape::lanes>(
+                begin, end, [&](int f, auto count) { strainFemCells(state, dt, block, material, f, count); });
+            updateBatch(material, thread, begin, end,
+                        {block.strain[0], block.strain[1], block.strain[2], block.strain[3]}, block.spin,
+                        fem_.stress, fem_.state);
+            shapes::inLanes<Shape::lanes>(begin, end, [&](int f, auto count) {
+                if (plastic) {
+                    setTangentShare<Real>(block, material, f, count);
+                }
+                addFemForces<Real>(state, material, f, count);
+            });
         }
-        updateBatch(material, thread, begin, end, fem_.strain, fem_.spin, fem_.stress, fem_.state);
     });
     ++femSteps_;
 }

@@ -146,6 +146,26 @@ template <class Real>
     }
 }
 
+/// Four numbers of each of four elements of an array, from the first number of the first element on: the
+/// first ones, the second ones and so on. `stride`: doubles per element.
+[[gnu::always_inline]] inline std::array<Four, 4> columns(const double* first, std::size_t stride)
+{
+    std::array<Four, 4> rows;
+    for (std::size_t l = 0; l < 4; ++l) {
+        rows[l] = Four(first + l * stride, std::experimental::element_aligned);
+    }
+    transpose(rows);
+    return rows;
+}
+
+[[gnu::always_inline]] inline void setColumns(double* first, std::size_t stride, std::array<Four, 4> of)
+{
+    transpose(of);
+    for (std::size_t l = 0; l < 4; ++l) {
+        of[l].copy_to(first + l * stride, std::experimental::element_aligned);
+    }
+}
+
 /// The sum of each.
 [[gnu::always_inline]] inline Four sums(const Four& a, const Four& b, const Four& c, const Four& d)
 {

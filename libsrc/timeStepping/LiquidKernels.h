@@ -196,8 +196,8 @@ void ExplicitStep<Shape, phases>::mapLiquidToNodes(const State& state, int c)
     for (int k = 0; k < corners; ++k) {
         setFour(out[k].mass, scale * inertia[k]);
         setFour(out[k].volume, volumes[k]);
-        out[k].forceR = forceR[k];
-        out[k].forceZ = forceZ[k];
+        cornerSums_[c * corners + k].pressureR = forceR[k];
+        cornerSums_[c * corners + k].pressureZ = forceZ[k];
     }
 }
 
@@ -206,9 +206,9 @@ void ExplicitStep<Shape, phases>::mapVoidToNodes(int c)
 {
     const double pressure = surfacePressure_[freeSurface_[c]];
     for (int k = 0; k < corners; ++k) {
-        LiquidCorner& corner = liquidCorners_[c * corners + k];
-        corner.forceR = pressure * dilatation_[c].volume * dilatation_[c].br[k];
-        corner.forceZ = pressure * dilatation_[c].volume * dilatation_[c].bz[k];
+        Corner& corner = cornerSums_[c * corners + k];
+        corner.pressureR = pressure * dilatation_[c].volume * dilatation_[c].br[k];
+        corner.pressureZ = pressure * dilatation_[c].volume * dilatation_[c].bz[k];
         if (pumped_) {
             voidForce_[c * corners + k] = {dilatation_[c].volume * dilatation_[c].br[k],
                                            dilatation_[c].volume * dilatation_[c].bz[k]};
@@ -268,8 +268,8 @@ void ExplicitStep<Shape, phases>::solveTwoPhaseNode(int i, const Corner& solid, 
     liquid.porosity = n;
     liquid.pressure = std::isnan(givenPressure_[i]) ? sum.pressureVolume / sum.volume : givenPressure_[i];
     // The wall of a body bears the pressure at its face.
-    const double pressureR = sum.forceR + liquid.pressure * wallArea_[i][0] + waterLoad_[i][0];
-    const double pressureZ = sum.forceZ + liquid.pressure * wallArea_[i][1] + waterLoad_[i][1];
+    const double pressureR = solid.pressureR + liquid.pressure * wallArea_[i][0] + waterLoad_[i][0];
+    const double pressureZ = solid.pressureZ + liquid.pressure * wallArea_[i][1] + waterLoad_[i][1];
     const double oldR = solid.momentumR / solid.mass;
     const double oldZ = solid.momentumZ / solid.mass;
     const double oldLiquidR = sum.momentumR / sum.mass;

@@ -51,9 +51,13 @@ void ExplicitStep<Shape, phases>::solveNodes(State& state, double dt)
         node.placeVz = oldZ + 0.5 * node.dvz;
     };
     if (femSteps_ > 0 || femCells_.empty()) {
-        forItemsOf(outerNodes_, solve);
+        threads_.share(outerNodes_.part, cellsPerPiece, [&](int, int begin, int end) {
+            forGathered(std::span(outerNodes_.items).subspan(begin, end - begin), solve);
+        });
     } else { // the inner ones begin as the others
-        forNodes(solve);
+        threads_.share(static_cast<int>(activeNodes_.size()), nodesPerPiece, [&](int, int begin, int end) {
+            forGathered(std::span(activeNodes_).subspan(begin, end - begin), solve);
+        });
     }
     if constexpr (twoPhase) { // a held direction wins over a body's, in velocity and drag
         applyContact(state, dt, false);

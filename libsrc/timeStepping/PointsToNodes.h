@@ -171,7 +171,7 @@ template <class Shape, int phases>
 double ExplicitStep<Shape, phases>::viscousStress(const State& state, int c, int material) const
 {
     const SolutionControls& controls = scene_.controls;
-    if (controls.linearBulkViscosity == 0 && controls.quadraticBulkViscosity == 0) {
+    if (!controls.isViscous()) {
         return 0;
     }
     const double rate = state.cellDivergence[c];
@@ -302,8 +302,7 @@ void ExplicitStep<Shape, phases>::sumPoints(const State& state, int c, kernels::
         const double weight = inertia[k][3];
         setFour(out[k].mass, scale * inertia[k]);
         out[k].fullMass = fullMass * share[k];
-        out[k].forceR = forceR[k] + gravityR * weight;
-        out[k].forceZ = forceZ[k] + gravityZ * weight;
+        setFour(out[k].forceR, four(forceR[k] + gravityR * weight, forceZ[k] + gravityZ * weight, 0, 0));
     }
 }
 
@@ -342,7 +341,7 @@ void ExplicitStep<Shape, phases>::addStress(const State& state, const int* cells
     for (int l = 0; l < count; ++l) {
         shapes::setLane(fullWeight, l,
                         -scene_.gravity[1] * gravityShare_[material(l)] * density_[material(l)]);
-        if (controls.linearBulkViscosity != 0 || controls.quadraticBulkViscosity != 0) {
+        if (controls.isViscous()) {
             shapes::setLane(viscous, l, viscousStress(state, cells[l], material(l)));
         }
     }
@@ -497,7 +496,7 @@ void ExplicitStep<Shape, phases>::mapToNodes(State& state)
     }
     const bool asElements = femSteps_ > 0;
     if (asElements) {
-        mapFemCellsToNodes(state);
+        mapFemCellsToNodes();
     }
     const auto finish = [&](int c) {
         if constexpr (twoPhase) {

@@ -91,6 +91,8 @@ struct SolutionControls
         return std::max(0.0, flipShare - (picTime > 0 ? dt / picTime : 0.0));
     }
 
+    [[nodiscard]] bool isViscous() const { return linearBulkViscosity != 0 || quadraticBulkViscosity != 0; }
+
     /// Cells at rest have one dilatation and the velocities of their nodes.
     [[nodiscard]] bool mayHaveFemCells() const
     {

@@ -377,7 +377,7 @@ void RunOutput::write(const State& state, const TimeStep& step)
         }
         NamedField filled{"filled", FieldKind::scalar, {state.filled.begin(), state.filled.end()}};
         writeField(folder, filled, false, "[0 0 0 0 0 0 0]", calculated, style);
-        if (case_.scene.controls.linearBulkViscosity > 0 || case_.scene.controls.quadraticBulkViscosity > 0) {
+        if (case_.scene.controls.isViscous()) {
             const NamedField rate{"dilatationRate", FieldKind::scalar, state.cellDivergence};
             writeField(folder, rate, false, "[0 0 -1 0 0 0 0]", calculated, style);
         }
