@@ -26,5 +26,5 @@ v.save(figure, axes)
 for name in NAMES:
     own = [run / name / run.name for run in runs]
     soil = name if name == "clay" else f"{name} soil"
-    v.report(f"cavity in {soil}: pressure", own, errors[name], target=0.03 if name == "clay" and v.cells(runs[-1]) < 20 else 0.01,
-             last=name == NAMES[-1])
+    target = 0.03 if name == "clay" and v.cells(runs[-1]) < 20 else 0.01
+    v.report(f"cavity in {soil}: pressure", own, errors[name], target, last=name == NAMES[-1])

@@ -27,5 +27,5 @@ for name, marker in zip(NAMES, ".x"):
 v.save(figure, axes)
 for name in NAMES:
     own = [run / name / run.name for run in runs]
-    v.report(f"spherical cavity in {name}: pressure", own, errors[name], target=0.04 if name == "clay" and v.cells(runs[-1]) < 20 else 0.01,
-             last=name == NAMES[-1])
+    target = 0.04 if name == "clay" and v.cells(runs[-1]) < 20 else 0.01
+    v.report(f"spherical cavity in {name}: pressure", own, errors[name], target, last=name == NAMES[-1])
