@@ -68,19 +68,6 @@ def written(run):
     return [Points(directory) for directory in sorted(times, key=lambda directory: float(directory.name))]
 
 
-def cavity_history(run):
-    """Radius of the cavity [m] and pressure [Pa] at the written times."""
-    text = (run / "constant/pointLoads").read_text(encoding="utf-8").split("table")[1]
-    table = np.array(re.findall(r"\(([0-9.]+) +([0-9.]+)\)", text), float)
-    radius, pressure = [], []
-    for points in written(run):
-        load = read_list(run / f"{points.time:g}" / "lagrangian/materialPoints/load")[:, 0]
-        # The soil between the face and the loaded points keeps its volume.
-        radius.append(np.sqrt(points.r**2 - points.R**2 + 1)[load >= 0].mean())
-        pressure.append(np.interp(points.time, *table.T))
-    return np.array(radius), np.array(pressure)
-
-
 def processor_time(run):
     """Seconds of the processor that the steps of the solver took, output apart; of other programs all of their time."""
     if not (run / "log.axiMpmFoam").exists():

@@ -1,60 +1,17 @@
 #!/usr/bin/python3
-"""Two soils round a cavity, and the exact pressure that expands it: writes them into the dictionaries of a run.
+"""Writes a soil round a cavity and the exact pressure that expands it into the dictionaries of a run.
 
-    soils.py cohesive | dilatant      (in the folder of the run; Allrun calls it)
+    soils.py sand | cohesive | dilatant | clay  cylinder | sphere      (in the folder of the run; Allrun calls it)
 """
 
 import re
 import sys
-from dataclasses import dataclass
-from math import factorial
 from pathlib import Path
 
 import numpy as np
 
-
-@dataclass(frozen=True)
-class Soil:
-    """Mohr-Coulomb soil under a pressure all round. Angles in degrees."""
-
-    nu: float
-    friction: float
-    dilatancy: float
-    cohesion: float
-    p0: float
-    E: float = 60e6
-
-    def expansion(self, p):
-        """a/a0 under the pressure p in a cylinder [Yu & Houlsby 1991]."""
-        sine, psi, nu = np.sin(np.radians(self.friction)), np.sin(np.radians(self.dilatancy)), self.nu
-        alpha, beta = (1 + sine) / (1 - sine), (1 + psi) / (1 - psi)
-        Y = 2 * self.cohesion * np.cos(np.radians(self.friction)) / (1 - sine)
-        gamma = alpha * (beta + 1) / ((alpha - 1) * beta)
-        start = Y + (alpha - 1) * self.p0
-        delta = start * (1 + nu) / ((1 + alpha) * self.E)
-        ratio = (1 + alpha) * (Y + (alpha - 1) * p) / (2 * alpha * start)
-        eta = np.exp((beta + 1) * (1 - 2 * nu) * (1 + nu) * start / (self.E * (alpha - 1) * beta))
-        xi = 2 * (1 - nu) * delta / ((alpha - 1) * beta) * (
-            alpha * beta + 1 - nu * (alpha + beta) / (1 - nu))
-        series = sum(xi**n / factorial(n) * (ratio ** (n - gamma) - 1) / (n - gamma) for n in range(30))
-        bracket = (1 - delta) ** ((beta + 1) / beta) - gamma / eta * series
-        return (ratio**-gamma / bracket) ** (beta / (beta + 1))
-
-    def pressure(self, growth):
-        """The pressure at a/a0 between 1.01 and 2.2."""
-        # up to where the bracket is still positive
-        pressures = np.linspace(1.5, 17, 20000) * self.p0
-        with np.errstate(invalid="ignore"):
-            expansions = self.expansion(pressures)
-        usable = np.flatnonzero(~(np.nan_to_num(expansions, nan=9) < 3))
-        end = usable[0] if usable.size else pressures.size
-        return np.interp(growth, expansions[:end], pressures[:end])
-
-
-SOILS = {
-    "cohesive": Soil(nu=0.25, friction=30, dilatancy=0, cohesion=10e3, p0=100e3),
-    "dilatant": Soil(nu=0.3, friction=35, dilatancy=10, cohesion=0, p0=100e3),
-}
+sys.path.insert(0, str(Path(__file__).resolve().parent.parent))
+import cavity  # noqa: E402
 
 
 def replace(file, pairs):
@@ -67,19 +24,39 @@ def replace(file, pairs):
     Path(file).write_text(text, encoding="utf-8")
 
 
-def main():
-    if len(sys.argv) != 2 or sys.argv[1] not in SOILS:
-        sys.exit(__doc__)
-    soil = SOILS[sys.argv[1]]
-    far = 2 * soil.E / (2 * (1 + soil.nu)) * 2 / 45  # as in ../cavityExpansion
+def law(soil):
+    """The law and its parameters, as constant/materialProperties has them."""
+    if isinstance(soil, cavity.Clay):
+        return "tresca", {"undrainedShearStrength": soil.strength}
+    return "mohrCoulomb", {"frictionAngle": soil.friction, "dilatancyAngle": soil.dilatancy, "cohesion": soil.cohesion}
+
+
+def write(soil, m):
+    """The soil, its initial stress, the elastic ring, which answers u with the pressure 2 m G u/r, and the load."""
+    name, parameters = law(soil)
+    far = 2 * m * soil.E / (2 * (1 + soil.nu)) * 2 / 45
     replace("constant/materialProperties", [
-        (r"poissonsRatio   0\.25;", f"poissonsRatio   {soil.nu};"), (r"frictionAngle [^\n]*", f"frictionAngle {soil.friction};"),
-        (r"dilatancyAngle [^\n]*", f"dilatancyAngle {soil.dilatancy};"), (r"cohesion [^\n]*", f"cohesion {soil.cohesion};"),
-        (r"youngsModulus   2\.13333e6;", f"youngsModulus {far:.6g};")])
+        ("mohrCoulomb", name), (r"poissonsRatio   0\.25;", f"poissonsRatio   {soil.nu};"),
+        (r"frictionAngle.*cohesion [^\n]*", "\n    ".join(f"{key} {value};" for key, value in parameters.items())),
+        (r"youngsModulus   [24][0-9.]*e6;", f"youngsModulus   {far:.6g};")])
     replace("system/setMaterialPointsDict", [(r"stress [^\n]*", f"stress ({-soil.p0} {-soil.p0} {-soil.p0} 0);")])
-    times = [0.2, 0.5, 1, 2, 4, 6, 10, 15, 20]
-    rows = [f"(0 {soil.p0})"] + [f"({time} {soil.pressure(1 + time / 20):.0f})" for time in times]
-    replace("constant/pointLoads", [(r"table\s*\(.*?\n    \);", "table\n    (\n        " + "\n        ".join(rows) + "\n    );")])
+    replace("system/controlDict", [(r"endTime +20;", f"endTime {soil.duration};"),
+                                   (r"writeInterval +1;", f"writeInterval {soil.duration / 20};")])
+    times, pressures = cavity.schedule(soil, m)
+    if m == 1:
+        rows = [f"({time:g} {pressure:.0f})" for time, pressure in zip(times, pressures)]
+        replace("constant/pointLoads", [(r"table\s*\(.*?\n    \);", "table\n    (\n        " + "\n        ".join(rows) + "\n    );")])
+    else:
+        rates = np.diff(pressures) / np.diff(times)
+        pieces = [f"t < {end:g} ? {pressure:.0f} + {rate:.0f}*(t - {begin:g})"
+                  for begin, end, pressure, rate in zip(times, times[1:], pressures, rates)]
+        replace("constant/pointLoads", [(r'p           "50e3"', 'p "' + " : ".join(pieces) + f' : {pressures[-1]:.0f}"')])
+
+
+def main():
+    if len(sys.argv) != 3 or sys.argv[1] not in cavity.SOILS or sys.argv[2] not in ("cylinder", "sphere"):
+        sys.exit(__doc__)
+    write(cavity.SOILS[sys.argv[1]], m=2 if sys.argv[2] == "sphere" else 1)
 
 
 if __name__ == "__main__":
