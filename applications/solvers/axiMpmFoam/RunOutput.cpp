@@ -281,6 +281,15 @@ void RunOutput::afterStep(State& state, const TimeStep& step, double courant,
     const double points = static_cast<double>(state.points.size());
     pointSteps_ += points;
     recordBodies(state);
+    if (state.points.twoPhase() && state.step % CheckerboardWatch::interval == 0) {
+        const double index = step.checkerboardIndex(state);
+        if (checkerboardWatch_.warns(index)) {
+            log_.warning(text("pore pressures alternate from cell to cell (checkerboard index %.2f): do not "
+                              "trust them; with stiff water use pressureCoupling projection, or less "
+                              "massScaling",
+                              index));
+        }
+    }
     if (logDue() || runTime_.writeTime() || !runTime_.running()) {
         const Energies energies = sumEnergies(state);
         double work = 0;
@@ -300,18 +309,8 @@ void RunOutput::afterStep(State& state, const TimeStep& step, double courant,
         report.lines.push_back(text("Cells: FEM = %d, filled = %d, partly filled = %d, empty = %d", cells.fem,
                                     cells.filled, cells.partial, cells.empty));
         if (state.points.twoPhase()) {
-            constexpr double rough = 0.8; // smooth pressures have 0.1 at most ...
-            constexpr int often = 5;      // ... once there are pressures at all
-            const double index = step.checkerboardIndex(state);
-            report.lines.push_back(text("Pore pressure: checkerboard index = %.4f", index));
-            roughReports_ = index <= rough && roughReports_ < often ? 0 : roughReports_ + 1;
-            if (roughReports_ == often) {
-                log_.warning(
-                    text("pore pressures alternate from cell to cell (checkerboard index %.2f): do not "
-                         "trust them; with stiff water use pressureCoupling projection, or less "
-                         "massScaling",
-                         index));
-            }
+            report.lines.push_back(
+                text("Pore pressure: checkerboard index = %.4f", step.checkerboardIndex(state)));
         }
         if (seepage) {
             report.lines.push_back(seepage->report());

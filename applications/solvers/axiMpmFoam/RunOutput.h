@@ -4,6 +4,7 @@
 #include "case/Monitor.h"
 #include "case/RunTime.h"
 #include "scene/CaseScene.h"
+#include "scene/CheckerboardWatch.h"
 #include "scene/QuasiSteadySeepage.h"
 
 #include <memory>
@@ -67,7 +68,7 @@ private:
     double whole_ = 1; ///< 2 pi where quantities are per radian
     std::vector<BodyOutput> bodies_;
     bool warnedOfEnergy_ = false, warnedOfInertia_ = false, warnedOfSeepage_ = false;
-    int roughReports_ = 0;                  ///< one after the other, of pore pressures that alternate
+    CheckerboardWatch checkerboardWatch_;
     double stepSeconds_ = 0, lastMark_ = 0; ///< processor time in steps, output apart
     double pointSteps_ = 0;
 };
