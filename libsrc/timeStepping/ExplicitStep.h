@@ -430,6 +430,16 @@ private:
         return twoPhase && scene_.controls.pressureCoupling == SolutionControls::PressureCoupling::projection;
     }
     void project(State& state, double dt);
+    /// Whether the points of a cell whose velocities are mapped again keep the dilatation that the pressures
+    /// balance: otherwise the soil would be strained by volumes that the water knows nothing of.
+    [[nodiscard]] bool keepsRate(int c) const
+    {
+        const SolutionControls& controls = scene_.controls;
+        return projects() && controls.locking == SolutionControls::Locking::meanDilatation &&
+               (controls.remap == SolutionControls::Remap::all ||
+                (controls.remap == SolutionControls::Remap::loose && byLoose_[c] != 0));
+    }
+    [[nodiscard]] double projectedRate(const State& state, int c) const;
     void freeMobility(int i, double dt);
     void holdMobility(int i, const std::array<double, 2>& direction, bool solid, bool flow, bool byWall,
                       double dt);

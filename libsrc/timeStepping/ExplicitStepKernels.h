@@ -512,6 +512,9 @@ void ExplicitStep<Shape, phases>::staggerStrain(State& state, double dt)
                 return;
             }
         }
+        if (keepsRate(c)) {
+            cellRate_[c] = projectedRate(state, c);
+        }
         mapCellToPoints<false, true>(state, 0.5 * dt, c);
     });
     updateStress(state, false);

@@ -57,7 +57,7 @@ auto ExplicitStep<Shape, phases>::strainOfFilled(int c, const CornerMotion& moti
             result.liquidGradient[i] = ofLiquid[i][0] + ofLiquid[i][1] + ofLiquid[i][2];
         }
     }
-    if (nodalAverage) {
+    if (nodalAverage || keepsRate(c)) {
         result.rate = cellRate_[c];
         result.liquidRate = twoPhase ? cellLiquidRate_[c] : 0;
     } else {
@@ -100,7 +100,7 @@ void ExplicitStep<Shape, phases>::mapCellToPoints(State& state, double dt, int c
     if constexpr (strains) {
         if (filled) {
             ofFilled = strainOfFilled(c, ofCorners, dt);
-        } else if (nodalAverage) {
+        } else if (nodalAverage || keepsRate(c)) {
             rate = cellRate_[c];
             liquidRate = twoPhase ? cellLiquidRate_[c] : 0;
         } else if (meanDilatation) { // the same mean over the points as in the forces
@@ -398,12 +398,21 @@ void ExplicitStep<Shape, phases>::mapToPoints(State& state, double dt)
     };
     const auto remaps = [&](int c) { return remapAll || (remapSome && byLoose_[c]); };
 
+    if (nodalAverage && projects()) { // as keepsRate
+        if (femSteps_ > 0) {
+            returnInnerMotion();
+        }
+        averageDilatationAtNodes();
+    }
     forAwakeCells([&](int c) {
         if (remapSome) {
             byLoose_[c] = 0;
             for (int k = 0; k < corners; ++k) {
                 byLoose_[c] |= looseNode_[cellNodes_[c * corners + k]];
             }
+        }
+        if (keepsRate(c) && !resting(c)) {
+            cellRate_[c] = projectedRate(state, c);
         }
         if (inBoxes(c)) {
             if constexpr (hasBoxes) {
@@ -455,7 +464,7 @@ void ExplicitStep<Shape, phases>::mapToPoints(State& state, double dt)
             applyContact(state, dt, true);
         }
     }
-    if (nodalAverage) {
+    if (nodalAverage && !projects()) {
         if (femSteps_ > 0) {
             returnInnerMotion();
         }

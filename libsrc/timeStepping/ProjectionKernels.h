@@ -285,4 +285,23 @@ void ExplicitStep<Shape, phases>::project(State& state, double dt)
     });
 }
 
+/// Rate of dilatation of a cell's soil by the nodes' velocities: the mean over what its row integrates.
+template <class Shape, int phases>
+double ExplicitStep<Shape, phases>::projectedRate(const State& state, int c) const
+{
+    const bool full = scene_.controls.integration == SolutionControls::Integration::mixed && !bySurface_[c];
+    double rate = 0;
+    for (int k = 0; k < corners; ++k) {
+        const Node& node = nodes_[cellNodes_[c * corners + k]];
+        const auto& row = flowRow_[c * corners + k];
+        rate += full ? dilatation_[c].br[k] * node.vr + dilatation_[c].bz[k] * node.vz
+                     : row[0] * node.vr + row[1] * node.vz;
+    }
+    double volume = full ? 1 : 0;
+    for (const int* p = pointCells_.begin(c); !full && p != pointCells_.end(c); ++p) {
+        volume += state.points.volume[*p];
+    }
+    return rate / volume;
+}
+
 } // namespace caisson
