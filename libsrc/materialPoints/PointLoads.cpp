@@ -211,7 +211,7 @@ std::vector<Keyword> pointLoadKeywords(const std::string& type)
     }
     if (type != "force") {
         keywords.push_back({"areaFollows", "flag", "no", "",
-                            "axisymmetric: whether the points' areas grow with r over the initial r"});
+                            "axisymmetric: whether the areas grow with r of the surface over its initial r"});
     }
     return keywords;
 }

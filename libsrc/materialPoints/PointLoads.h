@@ -19,7 +19,7 @@ struct PointLoad
     /// of time [s]
     VectorFunction1 value;
     PointVector expression;   ///< traction [Pa] of each of its points, in place of value
-    bool areaFollows = false; ///< axisymmetry: the areas grow with r over the initial r
+    bool areaFollows = false; ///< axisymmetry: the areas grow with r of the surface over its initial r
 
     /// Force over area (r z) [Pa].
     /// @param area  of all points of the load, round the whole axis [m2] (or [m]); a force is shared by it

@@ -385,6 +385,12 @@ private:
     void strainByFours(const int* cells, int count, double dt, FilledStrain* strains) const
         requires hasFours;
     [[nodiscard]] double viscousStress(const State& state, int c, int material) const;
+    /// How much longer the way from a point to its loaded surface has become, and r of the surface [m].
+    struct PointSurface
+    {
+        double stretch, r;
+    };
+    [[nodiscard]] PointSurface surfaceOf(const MaterialPoints& points, int p) const;
     [[nodiscard]] std::array<double, 2> pointLoad(const MaterialPoints& points, int p) const;
     void addPointLoads(const State& state, int c);
     void findBoxCells(const BackgroundMesh& mesh);

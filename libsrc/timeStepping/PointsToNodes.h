@@ -395,13 +395,38 @@ void ExplicitStep<Shape, phases>::addStress(const State& state, const int* cells
     }
 }
 
+/// Where the loaded surface of a point is now. The soil between the two keeps its mass, and the strip of
+/// surface that it lies under its width in the plane: a length h over it at the mean radius m has come from
+/// one H at M, with the volume ratio J of the point,
+///
+///     h m = J H M;  plane strain: h = J H.
+///
+/// With m = r + h_r/2, where h_r/H_r = h/H, that is r_surface^2 = r^2 + J H_r (2 R + H_r). So the wall of a
+/// cylinder is where it is however far from it the point; where the strip widens, as on a sphere, the way
+/// comes out too long.
+template <class Shape, int phases>
+typename ExplicitStep<Shape, phases>::PointSurface
+ExplicitStep<Shape, phases>::surfaceOf(const MaterialPoints& points, int p) const
+{
+    const double volumeRatio = points.volume[p] * density_[points.material[p]] / points.mass[p];
+    if constexpr (axisymmetric) {
+        const double r = points.r[p];
+        const double twiceM = 2 * points.initialR[p] + points.loadReachR[p];
+        const double surface = std::sqrt(std::max(0.0, r * r + volumeRatio * points.loadReachR[p] * twiceM));
+        return {volumeRatio * twiceM / (r + surface), surface};
+    }
+    return {volumeRatio, points.r[p] + volumeRatio * points.loadReachR[p]};
+}
+
 /// Force of the traction on a point now [N/rad or N/m].
 template <class Shape, int phases>
 std::array<double, 2> ExplicitStep<Shape, phases>::pointLoad(const MaterialPoints& points, int p) const
 {
     const int load = points.load[p];
-    const double growth = scene_.pointLoads[load].areaFollows ? points.r[p] / points.initialR[p] : 1.0;
-    const double area = growth * points.loadArea[p];
+    double area = points.loadArea[p];
+    if (scene_.pointLoads[load].areaFollows) {
+        area *= surfaceOf(points, p).r / (points.initialR[p] + points.loadReachR[p]);
+    }
     if (scene_.pointLoads[load].expression.given()) {
         return {area * expressionR_[p], area * expressionZ_[p]};
     }
@@ -419,11 +444,9 @@ void ExplicitStep<Shape, phases>::addPointLoads(const State& state, int c)
             continue;
         }
         const std::array<double, 2> force = pointLoad(points, p);
-        // At the surface, which moves away from the point as the point grows. Shape functions of the point's
-        // own cell, beyond its side where need be, have the moments of the force.
-        const double first =
-            points.mass[p] / density_[points.material[p]] / (axisymmetric ? points.initialR[p] : 1.0);
-        const double stretch = std::sqrt(points.volume[p] / (axisymmetric ? points.r[p] : 1.0) / first);
+        // At the surface, whose way to the point changes as the soil between them strains. Shape functions of
+        // the point's own cell, beyond its side where need be, have the moments of the force.
+        const double stretch = surfaceOf(points, p).stretch;
         Shape::evaluate(cells_[c], points.r[p] + stretch * points.loadReachR[p],
                         points.z[p] + stretch * points.loadReachZ[p], values);
         for (int k = 0; k < corners; ++k) {

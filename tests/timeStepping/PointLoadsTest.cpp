@@ -59,24 +59,66 @@ TEST(PointLoads, giveTheSoilTheMomentumOfTheirTotalForce)
     }
 }
 
-TEST(PointLoads, growWithTheRadiusWhereTheAreaFollows)
+/// An annulus inside which a pressure of 50 Pa has expanded a cylindrical cavity from 1 to 2 m of radius, in
+/// one step from rest; its soil has `volumeRatio` times the volume that it had.
+void pressOnAnExpandedCavity(Simulation& simulation, bool follows, int cells, double volumeRatio,
+                             bool triangles)
+{
+    const double first = 1, now = 2;
+    std::vector<double> lines = evenLines(now, now + 1, cells);
+    lines.insert(lines.begin(), {0, first});
+    lines.push_back(now + 2);
+    simulation.state.mesh = structuredMesh(lines, {0, 0.5}, Geometry::axisymmetric, triangles);
+    const int solid = simulation.addMaterial("solid", elasticSolid(1e6, 0.3, 2000));
+    simulation.setConditions(
+        "right { type zeroGradient; } bottom { type slip; } top { type slip; } left { type zeroGradient; }");
+    simulation.fill(solid, triangles ? 3 : 2, 2, [&](double r, double) { return r > now && r < now + 1; });
+    simulation.scene.pointLoads =
+        loadsOf(std::string("push { type pressure; direction (1 0 0); uniformValue 50; areaFollows ") +
+                    (follows ? "yes; }" : "no; }"),
+                Geometry::axisymmetric);
+    loadFace(simulation, LoadedSurface::Face::inner);
+    MaterialPoints& points = simulation.state.points;
+    for (std::size_t p = 0; p < points.size(); ++p) {
+        points.initialR[p] = std::sqrt(first * first + (points.r[p] * points.r[p] - now * now) / volumeRatio);
+        points.mass[p] /= volumeRatio;
+        points.loadArea[p] *= first / now;
+        points.loadReachR[p] = points.load[p] >= 0 ? first - points.initialR[p] : 0;
+    }
+    simulation.start();
+    simulation.step->advance(simulation.state, 1e-4);
+}
+
+TEST(PointLoads, pressOnTheWholeWallOfACavityWhereTheAreaFollows)
 {
     for (const bool follows : {false, true}) {
-        Simulation simulation;
-        makeFreeBlock(simulation, Geometry::axisymmetric, false);
-        simulation.scene.pointLoads =
-            loadsOf(std::string("push { type pressure; direction (1 0 0); uniformValue 50; areaFollows ") +
-                        (follows ? "yes; }" : "no; }"),
-                    Geometry::axisymmetric);
-        loadFace(simulation, LoadedSurface::Face::inner);
-        MaterialPoints& points = simulation.state.points;
-        for (double& r : points.initialR) { // as if the points had come from half the radius
-            r *= 0.5;
+        for (const bool triangles : {false, true}) {
+            for (const double volumeRatio : {1.0, 1.2}) {
+                for (const int cells : {1, 2, 8}) {
+                    Simulation simulation;
+                    pressOnAnExpandedCavity(simulation, follows, cells, volumeRatio, triangles);
+                    const std::string name = std::string(follows ? "following" : "not following") +
+                                             (triangles ? ", triangles" : "") + ", volume ratio " +
+                                             std::to_string(volumeRatio) + ", " + std::to_string(cells) +
+                                             " cells: force [N/rad]";
+                    expectNear(name.c_str(), sumEnergies(simulation.state).momentum[0] / 1e-4,
+                               50 * 0.5 * (follows ? 2 : 1), 1e-9);
+                }
+            }
         }
-        simulation.start();
-        simulation.step->advance(simulation.state, 1e-4);
-        expectNear(follows ? "following: force [N/rad]" : "not following: force [N/rad]",
-                   sumEnergies(simulation.state).momentum[0] / 1e-4, 50 * 0.5 * 1 * (follows ? 2 : 1), 1e-9);
+    }
+}
+
+TEST(PointLoads, actOnTheWallOfACavityThatHasExpanded)
+{
+    for (const double volumeRatio : {1.0, 1.2}) {
+        Simulation simulation;
+        pressOnAnExpandedCavity(simulation, true, 1, volumeRatio, false);
+        const MaterialPoints& points = simulation.state.points;
+        for (std::size_t p = 0; p < points.size(); ++p) {
+            // The nodes on the wall alone are pushed, and the shape functions carry that to the points.
+            EXPECT_NEAR(points.vr[p] / points.vr[0], (3 - points.r[p]) / (3 - points.r[0]), 1e-9);
+        }
     }
 }
 

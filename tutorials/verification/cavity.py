@@ -80,23 +80,20 @@ def schedule(soil, m=1):
 
 
 def wall(run, points, m=1):
-    """Loaded points, and the radius that the cavity has at each: the soil between its wall and the points keeps its volume."""
+    """The radius of the cavity as each loaded point has it: the soil between the wall and the points keeps its volume."""
     loaded = v.read_list(run / f"{points.time:g}" / "lagrangian/materialPoints/load")[:, 0] >= 0
     now, first = (points.r, points.R) if m == 1 else (np.hypot(points.r, points.z), np.hypot(points.R, points.Z))
-    return loaded, ((now ** (m + 1) - first ** (m + 1) + 1) ** (1 / (m + 1)))[loaded]
+    return ((now ** (m + 1) - first ** (m + 1) + 1) ** (1 / (m + 1)))[loaded]
 
 
 def cylinder(run):
-    """Radius of a cylindrical cavity and the pressure on its wall at the written times."""
+    """Radius of a cylindrical cavity and the pressure in it at the written times."""
     text = (run / "constant/pointLoads").read_text(encoding="utf-8").split("table")[1]
     table = np.array(re.findall(r"\(([0-9.]+) +([0-9.]+)\)", text), float)
     radius, pressure = [], []
     for points in v.written(run):
-        loaded, face = wall(run, points)
-        radius.append(face.mean())
-        # the pressure of the table acts on an area that grows as the radius of the points does, more slowly than the wall
-        share = (points.r / points.R)[loaded] / face
-        pressure.append(np.interp(points.time, *table.T) * share.mean())
+        radius.append(wall(run, points).mean())
+        pressure.append(np.interp(points.time, *table.T))
     return np.array(radius), np.array(pressure)
 
 

@@ -18,7 +18,7 @@ for name, marker in zip(NAMES, ".x"):
     errors[name] = []
     for k, run in enumerate(runs):
         written = v.written(run / name / run.name)
-        radius = np.array([cavity.wall(run / name / run.name, points, m=2)[1].mean() for points in written])
+        radius = np.array([cavity.wall(run / name / run.name, points, m=2).mean() for points in written])
         pressure = np.interp([points.time for points in written], *cavity.schedule(soil, m=2))
         errors[name].append(cavity.deviation(soil, radius, pressure, m=2))
         label = f"{v.cells(run)} cells, {name}" if name == NAMES[0] or run == runs[-1] else None
