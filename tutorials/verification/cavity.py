@@ -101,3 +101,36 @@ def deviation(soil, radius, pressure, m=1):
     """Largest deviation of the pressure from the exact one at the radius reached, beyond a/a0 = 1.05."""
     grown = radius > 1.05
     return np.abs(pressure / soil.pressure(radius, m) - 1)[grown].max()
+
+
+def history(run, soil, m=1):
+    """Radius of a cavity and the pressure in it at the written times."""
+    if m == 1:
+        return cylinder(run)
+    written = v.written(run)
+    radius = [wall(run, points, m).mean() for points in written]
+    return np.array(radius), np.interp([points.time for points in written], *schedule(soil, m))
+
+
+def compare(titles, coarse, m=1):
+    """Draws the pressure in cavities in several soils against the exact one at the radius reached, and reports the
+    deviations under the soils' titles. In clay `coarse` is the target of runs below 20 cells, 0.01 of all others."""
+    names = list(titles)
+    runs = v.folders()
+    figure, axes = v.picture("radius of the cavity/initial radius [-]", "pressure/initial pressure [-]")
+    growth = np.linspace(1, 2.1, 300)
+    errors = {}
+    for name, marker in zip(names, ".x+"):
+        soil = SOILS[name]
+        errors[name] = []
+        for k, run in enumerate(runs):
+            radius, pressure = history(run / name / run.name, soil, m)
+            errors[name].append(deviation(soil, radius, pressure, m))
+            label = f"{v.cells(run)} cells, {name}" if name == names[0] or run == runs[-1] else None
+            axes.plot(radius, pressure / soil.p0, marker, color=f"C{k}", markersize=4, label=label)
+        axes.plot(growth, soil.pressure(growth, m) / soil.p0, "k-", linewidth=0.8, label="exact" if name == names[0] else None)
+    v.save(figure, axes)
+    for name in names:
+        own = [run / name / run.name for run in runs]
+        target = coarse if name == "clay" and v.cells(runs[-1]) < 20 else 0.01
+        v.report(f"{titles[name]}: pressure", own, errors[name], target, last=name == names[-1])

@@ -2,29 +2,8 @@
 
 import sys
 
-import numpy as np
-
 sys.path.insert(0, "..")
 import cavity  # noqa: E402
-import verification as v  # noqa: E402
 
-NAMES = ["cohesive", "dilatant", "clay"]
-runs = v.folders()
-figure, axes = v.picture("radius of the cavity/initial radius [-]", "pressure/initial pressure [-]")
-growth = np.linspace(1, 2.1, 300)
-errors = {}
-for name, marker in zip(NAMES, ".x+"):
-    soil = cavity.SOILS[name]
-    errors[name] = []
-    for k, run in enumerate(runs):
-        radius, pressure = cavity.cylinder(run / name / run.name)
-        errors[name].append(cavity.deviation(soil, radius, pressure))
-        label = f"{v.cells(run)} cells, {name}" if name == NAMES[0] or run == runs[-1] else None
-        axes.plot(radius, pressure / soil.p0, marker, color=f"C{k}", markersize=4, label=label)
-    axes.plot(growth, soil.pressure(growth) / soil.p0, "k-", linewidth=0.8, label="exact" if name == NAMES[0] else None)
-v.save(figure, axes)
-for name in NAMES:
-    own = [run / name / run.name for run in runs]
-    soil = name if name == "clay" else f"{name} soil"
-    target = 0.03 if name == "clay" and v.cells(runs[-1]) < 20 else 0.01
-    v.report(f"cavity in {soil}: pressure", own, errors[name], target, last=name == NAMES[-1])
+cavity.compare({"cohesive": "cavity in cohesive soil", "dilatant": "cavity in dilatant soil", "clay": "cavity in clay"},
+               coarse=0.03)
