@@ -446,6 +446,11 @@ private:
                 (controls.remap == SolutionControls::Remap::loose && byLoose_[c] != 0));
     }
     [[nodiscard]] double projectedRate(const State& state, int c) const;
+    /// Cells away from a surface are full of liquid, whatever their points hold.
+    [[nodiscard]] bool isFull(int c) const
+    {
+        return scene_.controls.integration == SolutionControls::Integration::mixed && !bySurface_[c];
+    }
     void freeMobility(int i, double dt);
     void holdMobility(int i, const std::array<double, 2>& direction, bool solid, bool flow, bool byWall,
                       double dt);

@@ -56,8 +56,7 @@ void ExplicitStep<Shape, phases>::mapLiquidToNodes(const State& state, int c)
     const MaterialPoints& points = state.points;
     const typename Shape::Cell& cell = cells_[c];
     const bool meanDilatation = scene_.controls.locking == SolutionControls::Locking::meanDilatation;
-    // Cells away from a surface are full of liquid, whatever their points hold.
-    const bool full = scene_.controls.integration == SolutionControls::Integration::mixed && !bySurface_[c];
+    const bool full = isFull(c);
 
     std::array<Four, corners> inertia; // mass, momenta, drag
     std::array<Four, corners> volumes; // volume, pore volume, excess pressure times volume

@@ -398,11 +398,14 @@ void ExplicitStep<Shape, phases>::mapToPoints(State& state, double dt)
     };
     const auto remaps = [&](int c) { return remapAll || (remapSome && byLoose_[c]); };
 
-    if (nodalAverage && projects()) { // as keepsRate
+    const auto averageDilatation = [&] {
         if (femSteps_ > 0) {
             returnInnerMotion();
         }
         averageDilatationAtNodes();
+    };
+    if (nodalAverage && projects()) { // as keepsRate
+        averageDilatation();
     }
     forAwakeCells([&](int c) {
         if (remapSome) {
@@ -465,10 +468,7 @@ void ExplicitStep<Shape, phases>::mapToPoints(State& state, double dt)
         }
     }
     if (nodalAverage && !projects()) {
-        if (femSteps_ > 0) {
-            returnInnerMotion();
-        }
-        averageDilatationAtNodes();
+        averageDilatation();
     }
     const auto mapCell = [&](int c) {
         if (resting(c)) {

@@ -136,8 +136,7 @@ template <class Shape, int phases>
 void ExplicitStep<Shape, phases>::updateDilatationRows(const State& state, double dt)
 {
     forCells([&](int c) {
-        const bool full =
-            scene_.controls.integration == SolutionControls::Integration::mixed && !bySurface_[c];
+        const bool full = isFull(c);
         double volume = 0, stored = 0; // per pressure
         const auto bulkModulus = [&](int p) { return liquid_[state.points.material[p]].bulkModulus; };
         if (resting(c) && femSteps_ > 0) { // of one material
@@ -289,7 +288,7 @@ void ExplicitStep<Shape, phases>::project(State& state, double dt)
 template <class Shape, int phases>
 double ExplicitStep<Shape, phases>::projectedRate(const State& state, int c) const
 {
-    const bool full = scene_.controls.integration == SolutionControls::Integration::mixed && !bySurface_[c];
+    const bool full = isFull(c);
     double rate = 0;
     for (int k = 0; k < corners; ++k) {
         const Node& node = nodes_[cellNodes_[c * corners + k]];

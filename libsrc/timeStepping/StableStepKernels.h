@@ -98,8 +98,7 @@ typename StiffestMode<phases>::Cell ExplicitStep<Shape, phases>::modeCell(const 
     cell.shear /= volume;
     cell.bulk /= volume;
     if constexpr (twoPhase) {
-        const bool full =
-            scene_.controls.integration == SolutionControls::Integration::mixed && !bySurface_[c];
+        const bool full = isFull(c);
         cell.wet = full ? whole : volume;
         // Projection: the pressures follow.
         cell.storage = projects() ? 0 : cell.storage / pores;
