@@ -705,9 +705,11 @@ void ExplicitStep<Shape, phases>::accumulateFemNodes(double dt)
     const int begin = first ? 0 : innerNodes_;
     const int count = static_cast<int>(femNodes_.size()) - begin;
     threads_.share(count, nodesPerPiece, [&](int thread, int from, int to) {
+        bool restless = false;
         for (int j = from; j < to; ++j) {
-            restless_[thread] |= accumulate(begin + j) ? 1 : 0;
+            restless = accumulate(begin + j) || restless;
         }
+        restless_[thread] |= restless ? 1 : 0;
     });
 }
 

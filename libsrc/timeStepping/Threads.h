@@ -41,8 +41,11 @@ public:
     }
 
     /// Runs work(thread, begin, end) for pieces of `items`, that of the first part from bounds[0] to before
-    /// bounds[1] and so on. A thread takes pieces of its own part, which lie in its cache from the loop
-    /// before, and then of what others have not come to. Pieces begin at multiples of `piece` in their part.
+    /// bounds[1] and so on. A thread takes the pieces of its own part, which lie in its cache from the loop
+    /// before, and then of what others have not come to. Threads come from opposite ends of their parts, and
+    /// from the end that is the farthest from the owner to those of others: of two threads, one goes up and
+    /// one down, and only what lies where they meet passes from cache to cache. Pieces begin at multiples of
+    /// `piece` in their part.
     template <class Work>
     void share(std::span<const int> bounds, int piece, const Work& work)
     {
@@ -54,17 +57,20 @@ public:
             }
             return;
         }
-        for (int part = 0; part < count(); ++part) {
-            cursors_[part].next.store(bounds[part], std::memory_order_relaxed);
+        for (Cursor& cursor : cursors_) {
+            cursor.taken.store(0, std::memory_order_relaxed);
         }
         run([&](int thread) {
             for (int turn = 0; turn < count(); ++turn) {
                 const int part = (thread + turn) % count();
+                const int first = bounds[part];
                 const int end = bounds[part + 1];
-                std::atomic<int>& next = cursors_[part].next;
-                for (int begin = next.fetch_add(piece, std::memory_order_relaxed); begin < end;
-                     begin = next.fetch_add(piece, std::memory_order_relaxed)) {
-                    work(thread, begin, std::min(begin + piece, end));
+                const int pieces = (end - first + piece - 1) / piece;
+                const bool ownerGoesUp = part % 2 == 0;
+                const bool fromTheFront = ownerGoesUp == (turn == 0);
+                for (int i = cursors_[part].take(pieces, fromTheFront); i < pieces;
+                     i = cursors_[part].take(pieces, fromTheFront)) {
+                    work(thread, first + i * piece, std::min(first + (i + 1) * piece, end));
                 }
             }
         });
@@ -90,10 +96,23 @@ public:
     void lap(bool counts);
 
 private:
-    /// Next item of a part, on a line of the cache of its own.
+    /// What has been taken of the pieces of a part; on a line of the cache of its own.
     struct alignas(64) Cursor
     {
-        std::atomic<int> next = 0;
+        std::atomic<long long> taken = 0; ///< those from the front, and 2^32 times those from the back
+
+        /// The next piece from the front or the back, or `pieces` where none is left.
+        int take(int pieces, bool fromTheFront)
+        {
+            constexpr long long ofBack = 1LL << 32;
+            const long long before = taken.fetch_add(fromTheFront ? 1 : ofBack, std::memory_order_relaxed);
+            const int front = static_cast<int>(before % ofBack);
+            const int back = static_cast<int>(before / ofBack);
+            if (front + back >= pieces) {
+                return pieces;
+            }
+            return fromTheFront ? front : pieces - 1 - back;
+        }
     };
 
     using Call = void (*)(const void* job, int part);

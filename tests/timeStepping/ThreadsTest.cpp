@@ -149,6 +149,22 @@ TEST(Threads, shareWhatOneOfThemDoesNotComeTo)
     }
 }
 
+// Wherever they meet: what one thread computes lies together, so that little passes from cache to cache.
+TEST(Threads, meetAtOnePlaceComingFromBothEnds)
+{
+    Threads threads(2);
+    for (const int border : {0, 200, 500, 990, 1000}) {
+        const std::vector<int> bounds{0, border, 1000};
+        std::vector<int> by(1000, -1);
+        threads.share(bounds, 7, [&](int thread, int begin, int end) {
+            std::fill(by.begin() + begin, by.begin() + end, thread);
+        });
+        const auto met = std::ranges::find(by, 1);
+        EXPECT_EQ(std::count(by.begin(), met, 0) + std::count(met, by.end(), 1), 1000)
+            << "items in more than one stretch per thread; border at " << border;
+    }
+}
+
 // Which of the two ways is the faster is the machine's business: here both are taken.
 TEST(Threads, shareEveryItemOnceWhicheverWayIsFaster)
 {
