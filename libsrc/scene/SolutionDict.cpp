@@ -9,8 +9,9 @@ constexpr Keyword keywords[] = {
      "1: the soil alone, drained or dry; 2: soil and pore liquid, each with its velocity (v-w)"},
     {"drag", "word", "implicit", "implicit lagged",
      "drag between the phases: implicit at the nodes, or with the last velocities, which limits the step"},
-    {"checkerboardFilter", "-", "0.2", "[0, 1]",
-     "share of a checkerboard of pore pressures that is removed every ten steps; two phases only"},
+    {"checkerboardFilter", "-", "1", "[0, 1]",
+     "share of a checkerboard of pore pressures that is removed every ten steps, or every step of the "
+     "projection; two phases only"},
     {"integration", "word", "mixed", "mixed points",
      "mixed: cells filled with soil with their own volume, others at their points; points: all at points"},
     {"fittedWeights", "flag", "no", "",

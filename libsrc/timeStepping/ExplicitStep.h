@@ -96,7 +96,7 @@ private:
     static constexpr int cellsPerPiece = 16;
     static constexpr int nodesPerPiece = 128;
     static constexpr int pointsPerPiece = 256; ///< or FEM cells
-    static constexpr int filterInterval = 10;  ///< steps between two uses of the checkerboard filter
+    static constexpr int filterInterval = 10;  ///< explicit steps between two uses of the checkerboard filter
     using Values = shapes::Values<corners>;
     using Dilatation = shapes::MeanDilatation<corners>;
 
@@ -364,7 +364,9 @@ private:
     void moveBodies(State& state, double dt);
     void meanPressures(const State& state, std::vector<double>& cellPressure) const;
     void averageOverNodes(const std::vector<double>& ofCells, std::vector<double>& result) const;
+    void findCheckerboardSigns();
     void filterPressures(State& state);
+    void takeCheckerboard(std::vector<double>& ofCells);
     void staggerStrain(State& state, double dt);
     void mapToNodes(State& state);
     template <class Real>
@@ -608,6 +610,7 @@ private:
     std::vector<int> openNodes_;                   ///< on patches that give a pressure
     std::vector<int> voidNodes_;                   ///< of voidCells_ in the last step
     mutable std::vector<double> cellPressure_, cellAverage_; ///< of the filter
+    std::vector<signed char> checkerboardSign_;              ///< per corner
     std::vector<double> cellLiquidRate_;                     ///< as cellRate_, for the liquid
     std::vector<double> loadedArea_;                         ///< per load: of its points (see loadedAreas)
     std::vector<std::array<double, 2>> pointTraction_;       ///< per load, now [Pa]

@@ -189,6 +189,7 @@ ExplicitStep<Shape, phases>::ExplicitStep(const Scene& scene, State& state)
     if constexpr (twoPhase) {
         liquidCorners_.resize(cells * corners);
         liquidNodes_.resize(mesh.nodes());
+        findCheckerboardSigns();
         wallArea_.resize(mesh.nodes());
         givenPressure_.assign(mesh.nodes(), std::numeric_limits<double>::quiet_NaN());
         openNodes_ = scene.liquidBoundary.openNodes(mesh);
@@ -317,9 +318,6 @@ void ExplicitStep<Shape, phases>::advance(State& state, double dt)
         if (projects()) {
             project(state, dt);
         }
-        if (pumped_) {
-            pump(state, dt);
-        }
     }
     for (std::size_t b = 0; b < wallWater_.size(); ++b) {
         state.reactions[b].waterImpulse += dt * wallWater_[b];
@@ -333,7 +331,11 @@ void ExplicitStep<Shape, phases>::advance(State& state, double dt)
     }
     mapToPoints(state, dt);
     if constexpr (twoPhase) {
-        if (scene_.controls.checkerboardFilter > 0 && state.step % filterInterval == 0) {
+        if (pumped_) { // by the velocities that the soil is strained by
+            pump(state, dt);
+        }
+        // Steps of the projection are as long as ten of the others, or longer.
+        if (scene_.controls.checkerboardFilter > 0 && (projects() || state.step % filterInterval == 0)) {
             filterPressures(state);
         }
     }

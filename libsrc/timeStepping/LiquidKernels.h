@@ -483,27 +483,47 @@ void ExplicitStep<Shape, phases>::meanPressures(const State& state, std::vector<
     });
 }
 
-/// Linear cells of one pressure do not feel a checkerboard of it: no flow levels it. With A the average over
-/// the nodes, (1 - A)^2 of a pressure is that of a checkerboard itself, and O(h^4) of a smooth field.
+/// Signs of a checkerboard around the nodes that four cells meet at: + where a cell shares no side with the
+/// first one, - where it does; 0 at other nodes.
+template <class Shape, int phases>
+void ExplicitStep<Shape, phases>::findCheckerboardSigns()
+{
+    checkerboardSign_.assign(cellNodes_.size(), 0);
+    const auto besides = [this](int corner, int step) { // the node that lies beside this corner in its cell
+        return cellNodes_[corner / corners * corners + (corner + step) % corners];
+    };
+    for (int i = 0; i < static_cast<int>(nodes_.size()); ++i) {
+        const int first = nodeCorners_.start[i];
+        if (corners != 4 || nodeCorners_.start[i + 1] - first != 4) {
+            continue;
+        }
+        const int* const around = &nodeCorners_.item[first];
+        const std::array<int, 2> sides{besides(around[0], 1), besides(around[0], 3)};
+        std::array<signed char, 4> signs{};
+        int sum = 0;
+        for (int k = 0; k < 4; ++k) {
+            const int one = besides(around[k], 1), other = besides(around[k], 3);
+            const bool opposite =
+                one != sides[0] && one != sides[1] && other != sides[0] && other != sides[1];
+            signs[k] = k == 0 || opposite ? 1 : -1;
+            sum += signs[k];
+        }
+        for (int k = 0; sum == 0 && k < 4; ++k) { // else the cells do not lie all around the node
+            checkerboardSign_[around[k]] = signs[k];
+        }
+    }
+}
+
+/// Cells of one pressure do not feel a checkerboard of it: no flow levels it. Its share, taken twice of a
+/// smooth field, is O(h^8) in quadrilaterals and O(h^4) in triangles.
 template <class Shape, int phases>
 void ExplicitStep<Shape, phases>::filterPressures(State& state)
 {
-    // Steps that mass scaling makes longer are fewer: as much is removed per time.
-    const double share = 1 - std::pow(1 - scene_.controls.checkerboardFilter, std::sqrt(state.massScaling));
     meanPressures(state, cellPressure_);
-    for (int pass = 0; pass < 2; ++pass) {
-        averageOverNodes(cellPressure_, cellAverage_);
-        forCells([&](int c) { cellPressure_[c] -= cellAverage_[c]; });
-    }
+    takeCheckerboard(cellPressure_);
+    takeCheckerboard(cellPressure_);
     forCells([&](int c) {
-        bool open = bySurface_[c] != 0; // a mirror image across an impermeable side is right, there it is not
-        for (int k = 0; k < corners; ++k) {
-            open = open || !std::isnan(givenPressure_[cellNodes_[c * corners + k]]);
-        }
-        if (open) {
-            return;
-        }
-        const double change = share * cellPressure_[c];
+        const double change = scene_.controls.checkerboardFilter * cellPressure_[c];
         if (resting(c)) {
             fem_.pressure[femOf_[c]] -= change;
             return;
@@ -511,6 +531,49 @@ void ExplicitStep<Shape, phases>::filterPressures(State& state)
         for (const int* i = pointCells_.begin(c); i != pointCells_.end(c); ++i) {
             state.points.porePressure[*i] -= change;
         }
+    });
+}
+
+/// What alternates in values of cells, by what nodes see of it: each would move value times volume between
+/// the cells around it. In quadrilaterals T^T T, T the alternating sum of the four cells around a node over
+/// four: 1 for a checkerboard, sin^2(k h/2) sin^2(l h/2) for waves of the wave numbers k and l along the
+/// sides, and 0 for whatever is a sum of functions along one side each. In triangles what differs from the
+/// mean around a node, O(h^2), as if there were a mirror where soil ends. Nodes beside a free surface or with
+/// a given pressure, where that would not be right, see nothing.
+template <class Shape, int phases>
+void ExplicitStep<Shape, phases>::takeCheckerboard(std::vector<double>& ofCells)
+{
+    constexpr bool alternates = corners == 4;
+    constexpr double nothing = std::numeric_limits<double>::quiet_NaN();
+    ofNodes_.resize(nodes_.size());
+    forNodes([&](int i) {
+        double sum = 0, volume = 0, least = std::numeric_limits<double>::max();
+        bool sees = alternates || std::isnan(givenPressure_[i]);
+        for (int k = nodeCorners_.start[i]; k < nodeCorners_.start[i + 1]; ++k) {
+            const int corner = nodeCorners_.item[k];
+            const int c = corner / corners;
+            if (alternates) {
+                sees = sees && occupied_[c] && !bySurface_[c] && checkerboardSign_[corner] != 0;
+                sum += checkerboardSign_[corner] * ofCells[c];
+            } else if (occupied_[c]) {
+                sees = sees && !bySurface_[c];
+                sum += dilatation_[c].volume * ofCells[c];
+                volume += dilatation_[c].volume;
+            }
+            least = std::min(least, dilatation_[c].volume); // none gets more than it can bear
+        }
+        ofNodes_[i] = !sees ? nothing : alternates ? least * sum / 16 : sum / volume;
+    });
+    forCells([&](int c) {
+        double sum = 0;
+        for (int k = 0; k < corners; ++k) {
+            const double ofNode = ofNodes_[cellNodes_[c * corners + k]];
+            if (!std::isnan(ofNode)) {
+                sum += alternates ? checkerboardSign_[c * corners + k] * ofNode / dilatation_[c].volume
+                                  : (ofCells[c] - ofNode) / corners;
+            }
+        }
+        ofCells[c] = sum;
     });
 }
 

@@ -520,8 +520,8 @@ TEST(FreeSurface, aCoverLetsThroughTheFlowThatIsGiven)
             stored += points.volume[p] - volumes[p] +
                       porosity * volumes[p] * (points.porePressure[p] - pressures[p]) / 2e7;
         }
-        report("covered surface: stored/inflow - 1", 2 * M_PI * stored / (-flow * 2) - 1, 1e-2);
-        EXPECT_NEAR(2 * M_PI * stored / (-flow * 2), 1, 1e-2);
+        report("covered surface: stored/inflow - 1", 2 * M_PI * stored / (-flow * 2) - 1, 2e-3);
+        EXPECT_NEAR(2 * M_PI * stored / (-flow * 2), 1, 2e-3);
     }
 }
 
@@ -580,6 +580,79 @@ TEST(Projection, theWaterKnowsOfAllTheVolumeThatTheSoilIsStrainedBy)
     }
 }
 
+/// Pressures after some steps from `pressure(column, row)` in the cells of a mesh with graded lines.
+template <class Pressure>
+MaterialPoints filteredPoints(const Pressure& pressure, double filter, int steps, bool triangles = false)
+{
+    Simulation simulation;
+    const std::vector<double> r{0, 0.1, 0.22, 0.35, 0.5, 0.6, 0.68},
+        z{0, 0.1, 0.21, 0.35, 0.5, 0.64, 0.74, 0.8};
+    simulation.state.mesh = structuredMesh(r, z, Geometry::axisymmetric, triangles);
+    const int soil = simulation.addMaterial("soil", saturatedSoil(6e7, 0.25, 1e-14, 2e7));
+    simulation.scene.controls.phases = 2;
+    simulation.scene.controls.pressureCoupling = coupling;
+    simulation.scene.controls.checkerboardFilter = filter;
+    simulation.scene.controls.femCells = SolutionControls::FemCells::none;
+    simulation.setConditions(
+        "left { type slip; } right { type slip; } bottom { type slip; } top { type slip; }");
+    simulation.setPressures("left { type impermeable; } right { type impermeable; } "
+                            "bottom { type impermeable; } top { type impermeable; }");
+    if (triangles) {
+        simulation.scene.controls.locking = SolutionControls::Locking::nodalAverage;
+    }
+    simulation.fill(soil, triangles ? 3 : 2, 2);
+    MaterialPoints& points = simulation.state.points;
+    points.addLiquid();
+    for (std::size_t p = 0; p < points.size(); ++p) {
+        const auto column = std::ranges::upper_bound(r, points.r[p]) - r.begin();
+        const auto row = std::ranges::upper_bound(z, points.z[p]) - z.begin();
+        points.porePressure[p] = pressure(column, row);
+    }
+    simulation.start();
+    const double dt = 0.5 * simulation.step->stableStep(simulation.state).step;
+    for (int i = 0; i < steps; ++i) {
+        simulation.step->advance(simulation.state, dt);
+    }
+    return points;
+}
+
+// Those of consolidation and of waves, that is; whatever they are like from row to row.
+TEST(Pressure, theFilterLeavesFieldsOfOneDimensionAlone)
+{
+    const std::array<double, 8> ofRow{0, 700, -300, 900, 150, -820, 410, 20};
+    const auto layers = [&](auto, auto row) { return ofRow[row]; };
+    const MaterialPoints with = filteredPoints(layers, 1, 50), without = filteredPoints(layers, 0, 50);
+    double largest = 0;
+    for (std::size_t p = 0; p < with.size(); ++p) {
+        largest = std::max(largest, std::abs(with.porePressure[p] - without.porePressure[p]));
+    }
+    report("what the filter changes in a field of one dimension, of 900 Pa", largest, 1e-6);
+    EXPECT_LT(largest, 1e-6);
+}
+
+TEST(Pressure, theFilterKeepsTheTotalAndMakesNothingGrow)
+{
+    const auto rough = [](auto column, auto row) {
+        return static_cast<double>((7919 * column * column + 104729 * row * column + 31 * row) % 2001 - 1000);
+    };
+    for (const bool triangles : {false, true}) {
+        const MaterialPoints with = filteredPoints(rough, 1, 1, triangles);
+        const MaterialPoints without = filteredPoints(rough, 0, 1, triangles);
+        double total = 0, changed = 0, squareWith = 0, squareWithout = 0;
+        for (std::size_t p = 0; p < with.size(); ++p) {
+            const double change = with.porePressure[p] - without.porePressure[p];
+            total += with.volume[p] * change;
+            changed += with.volume[p] * std::abs(change);
+            squareWith += with.volume[p] * with.porePressure[p] * with.porePressure[p];
+            squareWithout += without.volume[p] * without.porePressure[p] * without.porePressure[p];
+        }
+        report("what the filter adds to the total, of what it moves", std::abs(total) / changed, 1e-6);
+        EXPECT_GT(changed, 0) << "no filter at all";
+        EXPECT_LT(std::abs(total), 1e-6 * changed); // the strains of the step are 1e-7
+        EXPECT_LT(squareWith, squareWithout);
+    }
+}
+
 TEST(Pressure, aCheckerboardIsRemoved)
 {
     for (const bool triangles : {false, true}) {
@@ -611,14 +684,23 @@ TEST(Pressure, aCheckerboardIsRemoved)
         for (int i = 0; i < 400; ++i) {
             simulation.step->advance(simulation.state, dt);
         }
-        double largest = 0;
-        for (std::size_t p = 0; p < points.size(); ++p) {
-            largest = std::max(largest, std::abs(points.porePressure[p]));
+        double largest = 0; // alternating sum around a node, over four; what is left on triangles
+        for (int i = 1; i < 10; ++i) {
+            for (int j = 1; j < 10; ++j) {
+                double sum = 0;
+                for (std::size_t p = 0; p < points.size(); ++p) {
+                    const int column = static_cast<int>(10 * points.r[p]) - i,
+                              row = static_cast<int>(10 * points.z[p]) - j;
+                    if ((column == -1 || column == 0) && (row == -1 || row == 0)) {
+                        sum += (column == row ? 1 : -1) * points.porePressure[p] / (triangles ? 6 : 4);
+                    }
+                }
+                largest = std::max(largest, std::abs(sum) / 4);
+            }
         }
-        std::printf("checkerboard: index %.3f at first, largest pressure %.3g of 1000 Pa after 400 steps\n",
-                    before, largest);
+        std::printf("checkerboard: index %.3f, largest of 1000 Pa after 400 steps %.3g\n", before, largest);
         EXPECT_GT(before, 0.8);
-        EXPECT_LT(largest, 200); // what is left is in the corners of the mesh
+        EXPECT_LT(largest, 100);
     }
 }
 
