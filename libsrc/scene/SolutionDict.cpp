@@ -10,8 +10,9 @@ constexpr Keyword keywords[] = {
     {"drag", "word", "implicit", "implicit lagged",
      "drag between the phases: implicit at the nodes, or with the last velocities, which limits the step"},
     {"checkerboardFilter", "-", "1", "[0, 1]",
-     "share of a checkerboard of pore pressures that is removed every ten steps, or every step of the "
-     "projection; two phases only"},
+     "share of a checkerboard of pore pressures that is removed every ten steps, or in every step with the "
+     "projection or, in quadrilaterals, with water of more than ten times the stiffness of the skeleton; "
+     "two phases only"},
     {"integration", "word", "mixed", "mixed points",
      "mixed: cells filled with soil with their own volume, others at their points; points: all at points"},
     {"fittedWeights", "flag", "no", "",

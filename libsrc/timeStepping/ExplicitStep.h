@@ -96,7 +96,6 @@ private:
     static constexpr int cellsPerPiece = 16;
     static constexpr int nodesPerPiece = 128;
     static constexpr int pointsPerPiece = 256; ///< or FEM cells
-    static constexpr int filterInterval = 10;  ///< explicit steps between two uses of the checkerboard filter
     using Values = shapes::Values<corners>;
     using Dilatation = shapes::MeanDilatation<corners>;
 
@@ -610,6 +609,7 @@ private:
     std::vector<int> openNodes_;                   ///< on patches that give a pressure
     std::vector<int> voidNodes_;                   ///< of voidCells_ in the last step
     mutable std::vector<double> cellPressure_, cellAverage_; ///< of the filter
+    int filterInterval_ = 10;                                ///< steps between two uses of it
     std::vector<signed char> checkerboardSign_;              ///< per corner
     std::vector<double> cellLiquidRate_;                     ///< as cellRate_, for the liquid
     std::vector<double> loadedArea_;                         ///< per load: of its points (see loadedAreas)

@@ -108,6 +108,14 @@ ExplicitStep<Shape, phases>::ExplicitStep(const Scene& scene, State& state)
                 {solidShare_.back() / material.solidDensity, material.liquidDensity,
                  material.liquidBulkModulus, material.liquidViscosity, material.cavitationPressure,
                  material.liquidViscosity / material.intrinsicPermeability, material.kozenyCarman});
+            // Steps of the projection are as long as ten others; stiff water makes much of a checkerboard. In
+            // triangles the filter takes too much of consolidation for every step.
+            constexpr double stiff = 10; // times as stiff as the skeleton
+            const bool often = corners == 4 && material.liquidBulkModulus / material.porosity >
+                                                   stiff * material.law->pWaveModulus();
+            if (projects() || often) {
+                filterInterval_ = 1;
+            }
         }
     }
     inside_.assign(cells, 0);
@@ -334,8 +342,7 @@ void ExplicitStep<Shape, phases>::advance(State& state, double dt)
         if (pumped_) { // by the velocities that the soil is strained by
             pump(state, dt);
         }
-        // Steps of the projection are as long as ten of the others, or longer.
-        if (scene_.controls.checkerboardFilter > 0 && (projects() || state.step % filterInterval == 0)) {
+        if (scene_.controls.checkerboardFilter > 0 && state.step % filterInterval_ == 0) {
             filterPressures(state);
         }
     }
