@@ -366,6 +366,15 @@ private:
     void findCheckerboardSigns();
     void filterPressures(State& state);
     void takeCheckerboard(std::vector<double>& ofCells);
+    /// Steps between two uses of the filter: once while a wave of the skeleton passes a cell, where the water
+    /// is stiff and makes much of a checkerboard or the step is that of the skeleton (projection).
+    [[nodiscard]] int filterInterval(const State& state) const
+    {
+        constexpr int forSoftWater = 10;
+        return stepsPerPassage_ > 0
+                   ? std::max(1, static_cast<int>(stepsPerPassage_ / std::sqrt(state.massScaling)))
+                   : forSoftWater;
+    }
     void staggerStrain(State& state, double dt);
     void mapToNodes(State& state);
     template <class Real>
@@ -609,11 +618,11 @@ private:
     std::vector<int> openNodes_;                   ///< on patches that give a pressure
     std::vector<int> voidNodes_;                   ///< of voidCells_ in the last step
     mutable std::vector<double> cellPressure_, cellAverage_; ///< of the filter
-    int filterInterval_ = 10;                                ///< steps between two uses of it
-    std::vector<signed char> checkerboardSign_;              ///< per corner
-    std::vector<double> cellLiquidRate_;                     ///< as cellRate_, for the liquid
-    std::vector<double> loadedArea_;                         ///< per load: of its points (see loadedAreas)
-    std::vector<std::array<double, 2>> pointTraction_;       ///< per load, now [Pa]
+    double stepsPerPassage_ = 0; ///< of a wave of the skeleton through a cell, where the filter asks for it
+    std::vector<signed char> checkerboardSign_;        ///< per corner
+    std::vector<double> cellLiquidRate_;               ///< as cellRate_, for the liquid
+    std::vector<double> loadedArea_;                   ///< per load: of its points (see loadedAreas)
+    std::vector<std::array<double, 2>> pointTraction_; ///< per load, now [Pa]
     // With a body force only: acceleration of the points in this step [m/s2].
     std::vector<double> bodyForceR_, bodyForceZ_;
     std::vector<PointVector::Workspace> bodyForceRoom_; ///< per thread

@@ -108,13 +108,12 @@ ExplicitStep<Shape, phases>::ExplicitStep(const Scene& scene, State& state)
                 {solidShare_.back() / material.solidDensity, material.liquidDensity,
                  material.liquidBulkModulus, material.liquidViscosity, material.cavitationPressure,
                  material.liquidViscosity / material.intrinsicPermeability, material.kozenyCarman});
-            // Steps of the projection are as long as ten others; stiff water makes much of a checkerboard. In
-            // triangles the filter takes too much of consolidation for every step.
-            constexpr double stiff = 10; // times as stiff as the skeleton
-            const bool often = corners == 4 && material.liquidBulkModulus / material.porosity >
-                                                   stiff * material.law->pWaveModulus();
-            if (projects() || often) {
-                filterInterval_ = 1;
+            // Triangles: so often the filter would take too much of consolidation.
+            const double ofSkeleton =
+                std::sqrt(material.law->pWaveModulus() / ((1 - material.porosity) * material.solidDensity));
+            constexpr double stiff = 3; // waves of the water, of the speed of those of the skeleton
+            if (projects() || (corners == 4 && waveSpeed_.back() > stiff * ofSkeleton)) {
+                stepsPerPassage_ = waveSpeed_.back() / ofSkeleton;
             }
         }
     }
@@ -342,7 +341,7 @@ void ExplicitStep<Shape, phases>::advance(State& state, double dt)
         if (pumped_) { // by the velocities that the soil is strained by
             pump(state, dt);
         }
-        if (scene_.controls.checkerboardFilter > 0 && state.step % filterInterval_ == 0) {
+        if (scene_.controls.checkerboardFilter > 0 && state.step % filterInterval(state) == 0) {
             filterPressures(state);
         }
     }

@@ -78,8 +78,9 @@ struct SolutionControls
         false;                 ///< scale only the cells whose own step is below that of the smallest, scaled
     double inertiaGate = 0.02; ///< of scaled rho v^2 over the vertical effective stress at the tip [-]
     double energyGate = 0.05;  ///< of kinetic energy over work done [-]
-    /// Share of a checkerboard of pore pressures that is removed every ten steps, or in every one with the
-    /// projection or stiff water; smooth fields change by O(h^8), in triangles O(h^4).
+    /// Share of a checkerboard of pore pressures that is removed every ten steps, or, with the projection or
+    /// stiff water, whenever a wave of the skeleton has passed a cell; smooth fields change by O(h^8), in
+    /// triangles O(h^4).
     double checkerboardFilter = 1;
     int sortInterval = 50; ///< steps between physical sorts of the points; those of FEM cells rest between
     int passedPointsPerCell = 0; ///< at most, where the tip of the moving body has passed; 0: any number
