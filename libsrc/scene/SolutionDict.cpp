@@ -11,10 +11,8 @@ constexpr Keyword keywords[] = {
      "drag between the phases: implicit at the nodes, or with the last velocities, which limits the step"},
     {"checkerboardFilter", "-", "1", "[0, 1]",
      "share of a checkerboard of pore pressures that is removed every ten steps; in every step of the "
-     "projection; and in "
-     "quadrilaterals whenever a wave of the skeleton has passed a cell, if those of the water are three "
-     "times as fast; "
-     "two phases only"},
+     "projection; and in quadrilaterals whenever a wave of the skeleton has passed a cell, if those of the "
+     "water are three times as fast; two phases only"},
     {"integration", "word", "mixed", "mixed points",
      "mixed: cells filled with soil with their own volume, others at their points; points: all at points"},
     {"fittedWeights", "flag", "no", "",

@@ -363,6 +363,7 @@ private:
     void moveBodies(State& state, double dt);
     void meanPressures(const State& state, std::vector<double>& cellPressure) const;
     void averageOverNodes(const std::vector<double>& ofCells, std::vector<double>& result) const;
+    void averageToNodes(const std::vector<double>& ofCells) const;
     void findCheckerboardSigns();
     void filterPressures(State& state);
     void takeCheckerboard(std::vector<double>& ofCells);

@@ -97,23 +97,21 @@ ExplicitStep<Shape, phases>::ExplicitStep(const Scene& scene, State& state)
         gravityShare_.push_back(material.weighingDensity() / material.inertialDensity());
         shearModulus_.push_back(material.law->shearModulus());
         // Projection: the pressure follows, and the soil may leave its liquid behind.
-        const double skeleton =
-            projects() ? (1 - material.porosity) * material.solidDensity : material.inertialDensity();
+        const double ofSolid = (1 - material.porosity) * material.solidDensity;
+        const double skeleton = projects() ? ofSolid : material.inertialDensity();
         waveSpeed_.push_back(twoPhase && !projects() ? kernels::fastWave(material)
                                                      : std::sqrt(material.law->pWaveModulus() / skeleton));
-        solidShare_.push_back(
-            twoPhase ? (1 - material.porosity) * material.solidDensity / material.inertialDensity() : 1);
+        solidShare_.push_back(twoPhase ? ofSolid / material.inertialDensity() : 1);
         if constexpr (twoPhase) {
             liquid_.push_back(
                 {solidShare_.back() / material.solidDensity, material.liquidDensity,
                  material.liquidBulkModulus, material.liquidViscosity, material.cavitationPressure,
                  material.liquidViscosity / material.intrinsicPermeability, material.kozenyCarman});
             // Triangles: so often the filter would take too much of consolidation.
-            const double ofSkeleton =
-                std::sqrt(material.law->pWaveModulus() / ((1 - material.porosity) * material.solidDensity));
+            const double passage = waveSpeed_.back() / std::sqrt(material.law->pWaveModulus() / ofSolid);
             constexpr double stiff = 3; // waves of the water, of the speed of those of the skeleton
-            if (projects() || (corners == 4 && waveSpeed_.back() > stiff * ofSkeleton)) {
-                stepsPerPassage_ = waveSpeed_.back() / ofSkeleton;
+            if (projects() || (corners == 4 && passage > stiff)) {
+                stepsPerPassage_ = passage;
             }
         }
     }

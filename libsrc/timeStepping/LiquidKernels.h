@@ -543,34 +543,39 @@ void ExplicitStep<Shape, phases>::filterPressures(State& state)
 template <class Shape, int phases>
 void ExplicitStep<Shape, phases>::takeCheckerboard(std::vector<double>& ofCells)
 {
-    constexpr bool alternates = corners == 4;
     constexpr double nothing = std::numeric_limits<double>::quiet_NaN();
-    ofNodes_.resize(nodes_.size());
-    forNodes([&](int i) {
-        double sum = 0, volume = 0, least = std::numeric_limits<double>::max();
-        bool sees = alternates || std::isnan(givenPressure_[i]);
-        for (int k = nodeCorners_.start[i]; k < nodeCorners_.start[i + 1]; ++k) {
-            const int corner = nodeCorners_.item[k];
-            const int c = corner / corners;
-            if (alternates) {
+    if constexpr (corners == 4) {
+        ofNodes_.resize(nodes_.size());
+        forNodes([&](int i) {
+            double sum = 0, least = std::numeric_limits<double>::max();
+            bool sees = true;
+            for (int k = nodeCorners_.start[i]; k < nodeCorners_.start[i + 1]; ++k) {
+                const int corner = nodeCorners_.item[k];
+                const int c = corner / corners;
                 sees = sees && occupied_[c] && !bySurface_[c] && checkerboardSign_[corner] != 0;
                 sum += checkerboardSign_[corner] * ofCells[c];
-            } else if (occupied_[c]) {
-                sees = sees && !bySurface_[c];
-                sum += dilatation_[c].volume * ofCells[c];
-                volume += dilatation_[c].volume;
+                least = std::min(least, dilatation_[c].volume); // none gets more than it can bear
             }
-            least = std::min(least, dilatation_[c].volume); // none gets more than it can bear
-        }
-        ofNodes_[i] = !sees ? nothing : alternates ? least * sum / 16 : sum / volume;
-    });
+            ofNodes_[i] = sees ? least * sum / 16 : nothing;
+        });
+    } else {
+        averageToNodes(ofCells);
+        forNodes([&](int i) {
+            bool sees = std::isnan(givenPressure_[i]);
+            for (int k = nodeCorners_.start[i]; k < nodeCorners_.start[i + 1]; ++k) {
+                const int c = nodeCorners_.item[k] / corners;
+                sees = sees && (!occupied_[c] || !bySurface_[c]);
+            }
+            ofNodes_[i] = sees ? ofNodes_[i] : nothing;
+        });
+    }
     forCells([&](int c) {
         double sum = 0;
         for (int k = 0; k < corners; ++k) {
             const double ofNode = ofNodes_[cellNodes_[c * corners + k]];
             if (!std::isnan(ofNode)) {
-                sum += alternates ? checkerboardSign_[c * corners + k] * ofNode / dilatation_[c].volume
-                                  : (ofCells[c] - ofNode) / corners;
+                sum += corners == 4 ? checkerboardSign_[c * corners + k] * ofNode / dilatation_[c].volume
+                                    : (ofCells[c] - ofNode) / corners;
             }
         }
         ofCells[c] = sum;

@@ -363,8 +363,22 @@ template <class Shape, int phases>
 void ExplicitStep<Shape, phases>::averageOverNodes(const std::vector<double>& ofCells,
                                                    std::vector<double>& result) const
 {
-    ofNodes_.resize(nodes_.size());
+    averageToNodes(ofCells);
     result.resize(ofCells.size());
+    forCells([&](int c) {
+        double sum = 0;
+        for (int k = 0; k < corners; ++k) {
+            sum += ofNodes_[cellNodes_[c * corners + k]];
+        }
+        result[c] = sum / corners;
+    });
+}
+
+/// Means of values of cells over those with soil around each node, weighted with volume: ofNodes_.
+template <class Shape, int phases>
+void ExplicitStep<Shape, phases>::averageToNodes(const std::vector<double>& ofCells) const
+{
+    ofNodes_.resize(nodes_.size());
     forNodes([&](int i) {
         double sum = 0;
         double volume = 0;
@@ -376,13 +390,6 @@ void ExplicitStep<Shape, phases>::averageOverNodes(const std::vector<double>& of
             }
         }
         ofNodes_[i] = sum / volume;
-    });
-    forCells([&](int c) {
-        double sum = 0;
-        for (int k = 0; k < corners; ++k) {
-            sum += ofNodes_[cellNodes_[c * corners + k]];
-        }
-        result[c] = sum / corners;
     });
 }
 
