@@ -221,6 +221,18 @@ private:
         shapes::VelocityGradient<corners> gradient; ///< rr, zz, hoop, v_r,z, v_z,r
     };
 
+    /// How the points of a filled cell move and are strained (RectangleKernels.h): its strain, spin and rates
+    /// as in FilledStrain, but about the middle of the cell, and modes (Shape::modes) of what its nodes have.
+    struct CellMotion
+    {
+        alignas(4 * sizeof(double)) double strain[3][4];
+        double motion[4][4];       ///< of Node::motion
+        double liquidMotion[4][4]; ///< of LiquidNode::motion
+        double velocity[4][4];     ///< of vr and vz, second and third, where points take a share of it
+        double spin[3];
+        double rate, liquidRate;
+    };
+
     /// By which velocities a pressure increment moves a node (ProjectionKernels.h): along a direction and
     /// across it, of solid and liquid, per force on the mixture; and the mobility of the mixture.
     struct Mobility
@@ -386,14 +398,13 @@ private:
     template <class May, class Alone, class Together>
     void forPieces(const WorkList& list, const May& may, const Alone& alone, const Together& together) const;
     [[nodiscard]] bool mayTakeFours() const;
-    double sumLiquidByFours(const MaterialPoints& points, int c, std::array<Four, corners>& inertia,
-                            std::array<Four, corners>& volumes) const
+    void sumByFours(const State& state, std::span<const int> cells, kernels::StressSums<double>* sums)
         requires hasFours;
     [[nodiscard]] bool holdsItsPoints(const MaterialPoints& points, int c) const
         requires hasFours;
-    void moveByFours(State& state, double dt, int c, const FilledStrain& strain)
+    void moveByFours(State& state, double dt, std::span<const int> cells, const CellMotion* motions)
         requires hasFours;
-    void strainByFours(const int* cells, int count, double dt, FilledStrain* strains) const
+    void strainByFours(const int* cells, int count, double dt, CellMotion* motions) const
         requires hasFours;
     [[nodiscard]] double viscousStress(const State& state, int c, int material) const;
     /// How much longer the way from a point to its loaded surface has become, and r of the surface [m].

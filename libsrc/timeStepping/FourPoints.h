@@ -12,6 +12,27 @@
 
 namespace caisson {
 
+/// Where the points are stored: pointers of our own, for what a kernel stores might change the vectors, for
+/// all that the compiler knows. Number: double or const double.
+template <class Number>
+struct PointArrays
+{
+    template <class Points>
+    [[gnu::always_inline]] PointArrays(Points& points, std::size_t materials)
+        : r(points.r.data()), z(points.z.data()), vr(points.vr.data()), vz(points.vz.data()),
+          wr(points.wr.data()), wz(points.wz.data()), mass(points.mass.data()), volume(points.volume.data()),
+          porePressure(points.porePressure.data()), stress{points.stress[0].data(), points.stress[1].data(),
+                                                           points.stress[2].data(), points.stress[3].data()},
+          material(points.material.data()), ofOneMaterial(materials == 1)
+    {
+    }
+
+    Number *r, *z, *vr, *vz, *wr, *wz, *mass, *volume, *porePressure;
+    std::array<Number*, 4> stress;
+    const int* material;
+    bool ofOneMaterial;
+};
+
 /// One to four points that lie one behind the other in the storage. What lies behind them is read, too, even
 /// while another thread gives it new values, and not used.
 template <int count>
@@ -19,13 +40,17 @@ struct AdjacentPoints
 {
     std::size_t first;
 
+    [[gnu::always_inline]] [[nodiscard]] Four of(const double* values) const
+    {
+        return Four(values + first, std::experimental::element_aligned);
+    }
     [[gnu::always_inline]] [[nodiscard]] Four of(const std::vector<double>& values) const
     {
-        return Four(values.data() + first, std::experimental::element_aligned);
+        return of(values.data());
     }
-    [[gnu::always_inline]] void set(std::vector<double>& values, const Four& result) const
+    [[gnu::always_inline]] void set(double* values, const Four& result) const
     {
-        double* const to = values.data() + first;
+        double* const to = values + first;
         if constexpr (count == 4) {
             result.copy_to(to, std::experimental::element_aligned);
         } else {
@@ -39,13 +64,13 @@ struct AdjacentPoints
         }
     }
     /// `of` one of the values, that of its material, for each.
-    template <class Value, class Of = std::identity>
-    [[gnu::always_inline]] [[nodiscard]] Four
-    ofMaterial(const std::vector<Value>& values, const std::vector<int>& material, const Of& of = {}) const
+    template <class Points, class Value, class Of = std::identity>
+    [[gnu::always_inline]] [[nodiscard]] Four ofMaterial(const std::vector<Value>& values,
+                                                         const Points& points, const Of& of = {}) const
     {
-        const auto at = [&](std::size_t p) { return std::invoke(of, values[material[p]]); };
-        return values.size() == 1 ? Four(std::invoke(of, values[0]))
-                                  : four(at(first), at(first + 1), at(first + 2), at(first + 3));
+        const auto at = [&](std::size_t p) { return std::invoke(of, values[points.material[p]]); };
+        return points.ofOneMaterial ? Four(std::invoke(of, values[0]))
+                                    : four(at(first), at(first + 1), at(first + 2), at(first + 3));
     }
     /// Zero for those behind the points.
     [[gnu::always_inline]] [[nodiscard]] static Four only(const Four& values)
@@ -66,11 +91,15 @@ struct ScatteredPoints
     std::array<int, 4> at;
     int count;
 
-    [[gnu::always_inline]] [[nodiscard]] Four of(const std::vector<double>& values) const
+    [[gnu::always_inline]] [[nodiscard]] Four of(const double* values) const
     {
         return four(values[at[0]], values[at[1]], values[at[2]], values[at[3]]);
     }
-    [[gnu::always_inline]] void set(std::vector<double>& values, const Four& result) const
+    [[gnu::always_inline]] [[nodiscard]] Four of(const std::vector<double>& values) const
+    {
+        return of(values.data());
+    }
+    [[gnu::always_inline]] void set(double* values, const Four& result) const
     {
         alignas(4 * sizeof(double)) std::array<double, 4> results;
         setFour(results[0], result);
@@ -78,13 +107,13 @@ struct ScatteredPoints
             values[at[l]] = results[l];
         }
     }
-    template <class Value, class Of = std::identity>
-    [[gnu::always_inline]] [[nodiscard]] Four
-    ofMaterial(const std::vector<Value>& values, const std::vector<int>& material, const Of& of = {}) const
+    template <class Points, class Value, class Of = std::identity>
+    [[gnu::always_inline]] [[nodiscard]] Four ofMaterial(const std::vector<Value>& values,
+                                                         const Points& points, const Of& of = {}) const
     {
-        const auto value = [&](int p) { return std::invoke(of, values[material[p]]); };
-        return values.size() == 1 ? Four(std::invoke(of, values[0]))
-                                  : four(value(at[0]), value(at[1]), value(at[2]), value(at[3]));
+        const auto value = [&](int p) { return std::invoke(of, values[points.material[p]]); };
+        return points.ofOneMaterial ? Four(std::invoke(of, values[0]))
+                                    : four(value(at[0]), value(at[1]), value(at[2]), value(at[3]));
     }
     [[gnu::always_inline]] [[nodiscard]] Four only(const Four& values) const
     {
@@ -99,22 +128,26 @@ template <class Work>
 [[gnu::always_inline]] inline void forFours(const int* first, const int* last, std::size_t size,
                                             const Work& work)
 {
-    for (; first < last; first += 4) {
-        const int count = static_cast<int>(std::min<std::ptrdiff_t>(last - first, 4));
-        const auto at = static_cast<std::size_t>(first[0]);
-        if (first[count - 1] - first[0] != count - 1 || at + 4 > size) {
-            work(ScatteredPoints{
-                {first[0], first[std::min(1, count - 1)], first[std::min(2, count - 1)], first[count - 1]},
-                count});
-        } else if (count == 4) {
+    const std::ptrdiff_t count = last - first;
+    auto at = static_cast<std::size_t>(first[0]);
+    const auto end = static_cast<std::size_t>(last[-1]) + 1;
+    if (last[-1] - first[0] == count - 1 && end + 3 <= size) {
+        for (; at + 4 <= end; at += 4) {
             work(AdjacentPoints<4>{at});
-        } else if (count == 3) {
+        }
+        if (at + 3 == end) {
             work(AdjacentPoints<3>{at});
-        } else if (count == 2) {
+        } else if (at + 2 == end) {
             work(AdjacentPoints<2>{at});
-        } else {
+        } else if (at + 1 == end) {
             work(AdjacentPoints<1>{at});
         }
+        return;
+    }
+    for (; first < last; first += 4) {
+        const int some = static_cast<int>(std::min<std::ptrdiff_t>(last - first, 4));
+        work(ScatteredPoints{
+            {first[0], first[std::min(1, some - 1)], first[std::min(2, some - 1)], first[some - 1]}, some});
     }
 }
 
@@ -164,14 +197,6 @@ template <class Real>
     for (std::size_t l = 0; l < 4; ++l) {
         of[l].copy_to(first + l * stride, std::experimental::element_aligned);
     }
-}
-
-/// The sum of each.
-[[gnu::always_inline]] inline Four sums(const Four& a, const Four& b, const Four& c, const Four& d)
-{
-    std::array<Four, 4> rows{a, b, c, d};
-    transpose(rows);
-    return (rows[0] + rows[1]) + (rows[2] + rows[3]);
 }
 
 } // namespace caisson

@@ -98,14 +98,7 @@ void ExplicitStep<Shape, phases>::mapLiquidToNodes(const State& state, int c)
     };
     const int* const first = pointCells_.begin(c);
     const int* const last = pointCells_.end(c);
-    const bool byFours = byFours_ && full;
-    if constexpr (hasFours) {
-        if (byFours) {
-            pressureVolume = sumLiquidByFours(points, c, inertia, volumes);
-            volume = dilatation_[c].volume / fullness_[c];
-        }
-    }
-    for (const int* i = first; full && !byFours && i != last; ++i) {
+    for (const int* i = first; full && i != last; ++i) {
         const auto [x, y] = Shape::evaluate(cell, points.r[*i], points.z[*i], values);
         const auto [v, pressure] = add(*i);
         if (corners == 4 && !meanDilatation) {

@@ -496,14 +496,12 @@ void ExplicitStep<Shape, phases>::mapToPoints(State& state, double dt)
     if constexpr (hasFours) {
         const auto mayJoin = [&](int c) { return state.filled[c] != 0 && !resting(c) && !later(c); };
         forPieces(awake_, mayJoin, mapCell, [&](std::span<const int> cells) {
-            std::array<FilledStrain, cellsPerPiece> strains;
+            std::array<CellMotion, cellsPerPiece> motions;
             for (std::size_t j = 0; j < cells.size(); j += 4) {
                 strainByFours(&cells[j], static_cast<int>(std::min<std::size_t>(4, cells.size() - j)), dt,
-                              &strains[j]);
+                              &motions[j]);
             }
-            for (std::size_t j = 0; j < cells.size(); ++j) {
-                moveByFours(state, dt, cells[j], strains[j]);
-            }
+            moveByFours(state, dt, cells, motions.data());
         });
     } else {
         forAwakeCells(mapCell);

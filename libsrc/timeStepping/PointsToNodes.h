@@ -522,9 +522,6 @@ void ExplicitStep<Shape, phases>::mapToNodes(State& state)
         mapFemCellsToNodes();
     }
     const auto finish = [&](int c) {
-        if constexpr (twoPhase) {
-            mapLiquidToNodes(state, c);
-        }
         if (resting(c)) {
             sampleFemCell(c);
         }
@@ -550,6 +547,9 @@ void ExplicitStep<Shape, phases>::mapToNodes(State& state)
         if (state.filled[c]) {
             addStress<double>(state, &c, 1, &sums);
         }
+        if constexpr (twoPhase) {
+            mapLiquidToNodes(state, c);
+        }
         finish(c);
     };
     const WorkList& list = asElements ? awake_ : active_;
@@ -557,9 +557,7 @@ void ExplicitStep<Shape, phases>::mapToNodes(State& state)
         const auto mayJoin = [&](int c) { return state.filled[c] != 0 && !(asElements && resting(c)); };
         forPieces(list, mayJoin, mapCell, [&](std::span<const int> cells) {
             std::array<kernels::StressSums<double>, cellsPerPiece> sums;
-            for (std::size_t j = 0; j < cells.size(); ++j) {
-                sumPoints(state, cells[j], sums[j]);
-            }
+            sumByFours(state, cells, sums.data());
             for (std::size_t j = 0; j < cells.size(); j += 4) {
                 addStress<Four>(state, &cells[j],
                                 static_cast<int>(std::min<std::size_t>(4, cells.size() - j)), &sums[j]);

@@ -2,53 +2,34 @@
 
 #include "timeStepping/NodesToPoints.h"
 
-// The points of filled cells that are rectangles, four at a time. The shape functions of a rectangle are
-// products of 1 +- xi and 1 +- eta: sums over the points need a quantity times 1, xi, eta and xi eta, and
-// come to the corners once per cell; what the corners give the points has four coefficients in the same way.
+// The points of filled cells that are rectangles, four at a time. What is done with each point is arithmetic
+// of four points in a register; for the sums at the corners these become registers of four quantities of one
+// point. What the corners give the points is a0 + a1 xi + a2 eta + a3 xi eta, whose coefficients (modes) are
+// found once per cell.
 namespace caisson {
 
 namespace kernels {
 
-/// Sums of a quantity of the points times 1, xi, eta and xi eta, apart for every fourth point.
-struct Modes
+/// Adds four quantities of each of four points to the corners of their cell, by N of the points. (Indices
+/// that are constants before loops are unrolled let the compiler keep the sums in registers.)
+[[gnu::always_inline]] inline void addToCorners(std::array<Four, 4> quantities, const std::array<Four, 4>& N,
+                                                std::array<Four, 4>& corners)
 {
-    Four of[4] = {0, 0, 0, 0};
-
-    [[gnu::always_inline]] void add(const Four& value, const Four& xi, const Four& eta, const Four& xiEta)
-    {
-        of[0] += value;
-        of[1] += xi * value;
-        of[2] += eta * value;
-        of[3] += xiEta * value;
-    }
-};
-
-/// Of four quantities at the corners: those of all modes.
-[[gnu::always_inline]] inline std::array<Four, 4> sumsOf(const Modes& a, const Modes& b, const Modes& c,
-                                                         const Modes& d)
-{
-    return {sums(a.of[0], b.of[0], c.of[0], d.of[0]), sums(a.of[1], b.of[1], c.of[1], d.of[1]),
-            sums(a.of[2], b.of[2], c.of[2], d.of[2]), sums(a.of[3], b.of[3], c.of[3], d.of[3])};
+    transpose(quantities);
+    const auto [a, b, c, d] = quantities;
+    corners[0] = corners[0] + N[0][0] * a + N[0][1] * b + N[0][2] * c + N[0][3] * d;
+    corners[1] = corners[1] + N[1][0] * a + N[1][1] * b + N[1][2] * c + N[1][3] * d;
+    corners[2] = corners[2] + N[2][0] * a + N[2][1] * b + N[2][2] * c + N[2][3] * d;
+    corners[3] = corners[3] + N[3][0] * a + N[3][1] * b + N[3][2] * c + N[3][3] * d;
 }
 
-/// Four quantities with their four modes over a cell, and each of them at four points.
-struct Fields
+/// A quantity at four points, one of four whose modes over their cell are given.
+[[gnu::always_inline]] inline Four fieldAt(const double (&modes)[4][4], int quantity, const Four& xi,
+                                           const Four& eta, const Four& xiEta)
 {
-    alignas(4 * sizeof(double)) double modes[4][4];
-
-    explicit Fields(const std::array<Four, 4>& ofModes)
-    {
-        for (int m = 0; m < 4; ++m) {
-            setFour(modes[m][0], ofModes[m]);
-        }
-    }
-    [[gnu::always_inline]] [[nodiscard]] Four at(int quantity, const Four& xi, const Four& eta,
-                                                 const Four& xiEta) const
-    {
-        return (modes[0][quantity] + xi * modes[1][quantity]) +
-               (eta * modes[2][quantity] + xiEta * modes[3][quantity]);
-    }
-};
+    return (modes[0][quantity] + xi * modes[1][quantity]) +
+           (eta * modes[2][quantity] + xiEta * modes[3][quantity]);
+}
 
 } // namespace kernels
 
@@ -103,49 +84,116 @@ bool ExplicitStep<Shape, phases>::holdsItsPoints(const MaterialPoints& points, i
     return holds;
 }
 
-/// Mass, momenta and drag of the liquid, volume and pore volume at the corners.
-/// @return the sum of volume times excess pressure
+/// sumPoints and, of two phases, mapLiquidToNodes of filled cells: their points are read once.
 template <class Shape, int phases>
-double ExplicitStep<Shape, phases>::sumLiquidByFours(const MaterialPoints& points, int c,
-                                                     std::array<Four, corners>& inertia,
-                                                     std::array<Four, corners>& volumes) const
+void ExplicitStep<Shape, phases>::sumByFours(const State& state, std::span<const int> cells,
+                                             kernels::StressSums<double>* sums)
     requires hasFours
 {
-    const typename Shape::Cell cell = cells_[c];
-    kernels::Modes mass, momentumR, momentumZ, drag, volume, pores;
-    Four pressure = 0;
-    forFours(
-        pointCells_.begin(c), pointCells_.end(c),
-        points.size(), [&](const auto& p) __attribute__((always_inline)) {
-            const Four z = p.of(points.z);
-            const Four x = (p.of(points.r) - cell.r0) * (2 * cell.invDr) - 1;
-            const Four y = (z - cell.z0) * (2 * cell.invDz) - 1;
-            const Four xy = x * y;
-            const Four whole = p.of(points.volume);
-            const Four v = p.only(whole);
-            const Four w = p.only(whole - p.of(points.mass) * p.ofMaterial(liquid_, points.material,
-                                                                           &LiquidProperties::grainVolume));
-            const Four m = w * p.ofMaterial(liquid_, points.material, &LiquidProperties::density);
-            mass.add(m, x, y, xy);
-            momentumR.add(m * p.of(points.wr), x, y, xy);
-            momentumZ.add(m * p.of(points.wz), x, y, xy);
-            drag.add(w * (w / whole) *
-                         p.ofMaterial(liquid_, points.material, &LiquidProperties::constantDrag),
-                     x, y, xy);
-            volume.add(v, x, y, xy);
-            pores.add(w, x, y, xy);
-            pressure += v * (p.of(points.porePressure) - unitWeight_ * z);
-        });
-    inertia = Shape::cornerSums(kernels::sumsOf(mass, momentumR, momentumZ, drag));
-    volumes = Shape::cornerSums(kernels::sumsOf(volume, pores, {}, {}));
-    return reduce(pressure);
+    const PointArrays<const double> points(state.points, scene_.materials.size());
+    for (std::size_t j = 0; j < cells.size(); ++j) {
+        const int c = cells[j];
+        const typename Shape::Cell cell = cells_[c];
+        // At the corners
+        std::array<Four, corners> inertia{0, 0, 0, 0}; // mass, momenta, weight over gravity
+        std::array<Four, corners> liquid{0, 0, 0, 0};  // mass, momenta, drag
+        // Volume, pore volume, volume times excess pressure, times xi^2
+        std::array<Four, corners> volumes{0, 0, 0, 0};
+        // Of the cell: volume times stress, that times xi and eta, volume times eta^2
+        Four stress = 0, stressXi = 0, stressEta = 0, etaSquare = 0;
+        forFours(
+            pointCells_.begin(c), pointCells_.end(c),
+            state.points.size(), [&](const auto& p) __attribute__((always_inline)) {
+                const Four z = p.of(points.z);
+                const Four x = (p.of(points.r) - cell.r0) * (2 * cell.invDr) - 1;
+                const Four y = (z - cell.z0) * (2 * cell.invDz) - 1;
+                const std::array<Four, corners> N = Shape::cornerSums(std::array<Four, 4>{1, x, y, x * y});
+                const Four whole = p.of(points.volume);
+                const Four v = p.only(whole);
+                const Four mass = p.only(p.of(points.mass));
+                const Four solid = twoPhase ? mass * p.ofMaterial(solidShare_, points) : mass;
+                kernels::addToCorners({solid, solid * p.of(points.vr), solid * p.of(points.vz),
+                                       mass * p.ofMaterial(gravityShare_, points)},
+                                      N, inertia);
+                Four pores = 0, pressure = 0;
+                if constexpr (twoPhase) {
+                    const auto property = [&](auto of) { return p.ofMaterial(liquid_, points, of); };
+                    pores = v - mass * property(&LiquidProperties::grainVolume);
+                    pressure = p.of(points.porePressure) - unitWeight_ * z;
+                    const Four water = pores * property(&LiquidProperties::density);
+                    kernels::addToCorners(
+                        {water, water * p.of(points.wr), water * p.of(points.wz),
+                         pores * (pores / whole) * property(&LiquidProperties::constantDrag)},
+                        N, liquid);
+                }
+                kernels::addToCorners({v, pores, v * pressure, v * x * x}, N, volumes);
+                etaSquare += v * y * y;
+                std::array<Four, 4> s{v * p.of(points.stress[0]), v * p.of(points.stress[1]),
+                                      v * p.of(points.stress[2]), v * p.of(points.stress[3])};
+                transpose(s);
+                stress += (s[0] + s[1]) + (s[2] + s[3]);
+                stressXi = stressXi + x[0] * s[0] + x[1] * s[1] + x[2] * s[2] + x[3] * s[3];
+                stressEta = stressEta + y[0] * s[0] + y[1] * s[1] + y[2] * s[2] + y[3] * s[3];
+            });
+
+        const Four ofCell = (volumes[0] + volumes[2]) + (volumes[1] + volumes[3]);
+        const double lowerSlope = volumes[1][0] - volumes[0][0];
+        const double upperSlope = volumes[2][0] - volumes[3][0];
+        sums[j].w = ofCell[0];
+        sums[j].wx = upperSlope + lowerSlope;
+        sums[j].wy = (volumes[2][0] + volumes[3][0]) - (volumes[0][0] + volumes[1][0]);
+        sums[j].wxy = upperSlope - lowerSlope;
+        sums[j].wxx = ofCell[3];
+        sums[j].wyy = reduce(etaSquare);
+        setFour(sums[j].s[0], stress);
+        setFour(sums[j].sx[0], stressXi);
+        setFour(sums[j].sy[0], stressEta);
+
+        const Dilatation& dilatation = dilatation_[c];
+        const int material = points.material[*pointCells_.begin(c)];
+        const double inverse = 1 / ofCell[0];
+        const double whole = dilatation.volume * inverse;
+        fullness_[c] = whole;
+        const double scale = inertiaScale_[c] * whole;
+        const double fullMass = inertiaScale_[c] * density_[material] *
+                                (twoPhase ? solidShare_[material] : 1.0) * dilatation.volume;
+        const double mean = ofCell[2] * inverse; // excess pressure
+        const double push = dilatation.volume * mean;
+        const Four gravity = whole * four(scene_.gravity[0], scene_.gravity[1], 0, 0);
+        std::array<Four, 4> pushes{0, 0, push * Four(dilatation.br, std::experimental::element_aligned),
+                                   push * Four(dilatation.bz, std::experimental::element_aligned)};
+        transpose(pushes);
+        const std::array<double, corners> share = Shape::cornerShares(cell);
+        const auto put = [&](auto corner) __attribute__((always_inline))
+        {
+            constexpr int k = decltype(corner)::value;
+            Corner& to = cornerSums_[c * corners + k];
+            setFour(to.mass, scale * inertia[k]);
+            to.fullMass = fullMass * share[k];
+            setFour(to.forceR, inertia[k][3] * gravity + pushes[k]);
+            if constexpr (twoPhase) {
+                LiquidCorner& ofLiquid = liquidCorners_[c * corners + k];
+                setFour(ofLiquid.mass, four(scale, scale, scale, whole) * liquid[k]);
+                const double volume = whole * volumes[k][0]; // the force takes the whole cell
+                setFour(ofLiquid.volume, four(volume, whole * volumes[k][1], mean * volume, 0));
+            }
+        };
+        put(std::integral_constant<int, 0>{});
+        put(std::integral_constant<int, 1>{});
+        put(std::integral_constant<int, 2>{});
+        put(std::integral_constant<int, 3>{});
+        if constexpr (twoPhase) {
+            if (resting(c)) {
+                fem_.pressure[femOf_[c]] = mean;
+            }
+        }
+    }
 }
 
-/// strainOfFilled of `count` cells, with one dilatation: what moveByFours takes of it, about the middles of
-/// the cells.
+/// strainOfFilled of `count` cells, with one dilatation, and how their points move.
 template <class Shape, int phases>
 void ExplicitStep<Shape, phases>::strainByFours(const int* cells, int count, double dt,
-                                                FilledStrain* strains) const
+                                                CellMotion* motions) const
     requires hasFours
 {
     const auto integrals = Shape::integrals(cellLanes<Four>(cells, count));
@@ -193,105 +241,130 @@ void ExplicitStep<Shape, phases>::strainByFours(const int* cells, int count, dou
     for (std::array<Four, 4>& of : rows) {
         transpose(of);
     }
+    const bool sharesVelocity = scene_.controls.flipOf(dt) < 1;
     for (int l = 0; l < count; ++l) {
-        FilledStrain& result = strains[l];
+        CellMotion& result = motions[l];
         for (int i = 0; i < 3; ++i) {
             setFour(result.strain[i][0], rows[i][l]);
             result.spin[i] = rows[3][l][i];
         }
         result.rate = rows[3][l][3];
         result.liquidRate = liquidRate[l];
+        const int* const nodes = &cellNodes_[cells[l] * corners];
+        const auto setModes = [&](double(&to)[4][4], const auto& of) {
+            const std::array<Four, 4> ofCorners{of(nodes[0]), of(nodes[1]), of(nodes[2]), of(nodes[3])};
+            const std::array<Four, 4> modes = Shape::modes(ofCorners.data());
+            for (int m = 0; m < 4; ++m) {
+                setFour(to[m][0], modes[m]);
+            }
+        };
+        setModes(result.motion, [&](int i) { return nodes_[i].motion(); });
+        if constexpr (twoPhase) {
+            setModes(result.liquidMotion, [&](int i) { return liquidNodes_[i].motion(); });
+        }
+        if (sharesVelocity) {
+            setModes(result.velocity, [&](int i) { return fourFrom(nodes_[i].mass); });
+        }
     }
 }
 
-/// mapCellToPoints of a filled cell.
+/// mapCellToPoints of filled cells.
 template <class Shape, int phases>
-void ExplicitStep<Shape, phases>::moveByFours(State& state, double dt, int c, const FilledStrain& strain)
+void ExplicitStep<Shape, phases>::moveByFours(State& state, double dt, std::span<const int> cells,
+                                              const CellMotion* motions)
     requires hasFours
 {
-    MaterialPoints& points = state.points;
-    const typename Shape::Cell cell = cells_[c];
+    const PointArrays<double> points(state.points, scene_.materials.size());
+    const std::array<double*, 4> strainOf{strain_[0].data(), strain_[1].data(), strain_[2].data(),
+                                          strain_[3].data()};
+    double* const spinOf = spin_.data();
+    const std::size_t size = state.points.size();
     const double flip = scene_.controls.flipOf(dt);
-    const CornerMotion corner = cornerMotion(c);
-    const kernels::Fields moves(Shape::modes(corner.motion.data()));
-    const auto vr = Shape::modes(corner.vr);
-    const auto vz = Shape::modes(corner.vz);
-    const double e = dt * strain.rate;
-    const double growth = 1 + e * (1 + 0.5 * e); // exp(e)
-    state.cellDivergence[c] = strain.rate;
+    std::array<double, cellsPerPiece> shifts; // of the mean pressure
+    for (std::size_t j = 0; j < cells.size(); ++j) {
+        const int c = cells[j];
+        const CellMotion& motion = motions[j];
+        const typename Shape::Cell cell = cells_[c];
+        const double e = dt * motion.rate;
+        const double growth = 1 + e * (1 + 0.5 * e); // exp(e)
+        state.cellDivergence[c] = motion.rate;
 
-    const auto move = [&](const auto& p, const Four& x, const Four& y, const Four& z, const Four& mass,
-                          const Four& volume) __attribute__((always_inline))
-    {
-        const Four xy = x * y;
-        for (int j = 0; j < 4; ++j) {
-            p.set(strain_[j], strain.strain[0][j] + x * strain.strain[1][j] + y * strain.strain[2][j]);
+        const auto move = [&](const auto& p, const Four& x, const Four& y, const Four& z, const Four& mass,
+                              const Four& volume) __attribute__((always_inline))
+        {
+            const Four xy = x * y;
+            for (int i = 0; i < 4; ++i) {
+                p.set(strainOf[i], motion.strain[0][i] + x * motion.strain[1][i] + y * motion.strain[2][i]);
+            }
+            p.set(spinOf, motion.spin[0] + x * motion.spin[1] + y * motion.spin[2]);
+            Four newR = p.of(points.vr) + kernels::fieldAt(motion.motion, 0, x, y, xy);
+            Four newZ = p.of(points.vz) + kernels::fieldAt(motion.motion, 1, x, y, xy);
+            if (flip < 1) {
+                newR = flip * newR + (1 - flip) * kernels::fieldAt(motion.velocity, 1, x, y, xy);
+                newZ = flip * newZ + (1 - flip) * kernels::fieldAt(motion.velocity, 2, x, y, xy);
+            }
+            p.set(points.vr, newR);
+            p.set(points.vz, newZ);
+            p.set(points.volume, min(volume * growth, mass * p.ofMaterial(largestVolume_, points)));
+            p.set(points.r, p.of(points.r) + dt * kernels::fieldAt(motion.motion, 2, x, y, xy));
+            p.set(points.z, z + dt * kernels::fieldAt(motion.motion, 3, x, y, xy));
+            return std::array{newR, newZ};
+        };
+        const auto xiAt = [&](const Four& r) { return (r - cell.r0) * (2 * cell.invDr) - 1; };
+        const auto etaAt = [&](const Four& z) { return (z - cell.z0) * (2 * cell.invDz) - 1; };
+        const int* const first = pointCells_.begin(c);
+        const int* const last = pointCells_.end(c);
+        if constexpr (!twoPhase) {
+            forFours(
+                first, last, size, [&](const auto& p) __attribute__((always_inline)) {
+                    const Four z = p.of(points.z);
+                    move(p, xiAt(p.of(points.r)), etaAt(z), z, p.of(points.mass), p.of(points.volume));
+                });
+        } else {
+            const double increment = projects() ? pressureStep_[c] : 0;
+            const double liquidStrain = dt * motion.liquidRate;
+            Four difference = 0, volumeSum = 0;
+            forFours(
+                first, last, size, [&](const auto& p) __attribute__((always_inline)) {
+                    const Four z = p.of(points.z);
+                    const Four x = xiAt(p.of(points.r));
+                    const Four y = etaAt(z);
+                    const Four xy = x * y;
+                    const Four mass = p.of(points.mass);
+                    const Four volume = p.of(points.volume);
+                    Four pressure = p.of(points.porePressure) + increment;
+                    if (!projects()) { // storage, as in mapCellToPoints
+                        const Four inverseN =
+                            volume /
+                            (volume - mass * p.ofMaterial(liquid_, points, &LiquidProperties::grainVolume));
+                        pressure -= p.ofMaterial(liquid_, points, &LiquidProperties::bulkModulus) *
+                                    ((inverseN - 1) * e + liquidStrain);
+                    }
+                    const Four shown = kernels::fieldAt(motion.liquidMotion, 3, x, y, xy) + unitWeight_ * z;
+                    const Four v = p.only(volume);
+                    difference += v * (pressure - shown);
+                    volumeSum += v;
+                    p.set(points.porePressure, shown);
+                    const Four keep = kernels::fieldAt(motion.liquidMotion, 2, x, y, xy);
+                    const Four relativeR = kernels::fieldAt(motion.liquidMotion, 0, x, y, xy) +
+                                           keep * (p.of(points.wr) - p.of(points.vr));
+                    const Four relativeZ = kernels::fieldAt(motion.liquidMotion, 1, x, y, xy) +
+                                           keep * (p.of(points.wz) - p.of(points.vz));
+                    const auto [newR, newZ] = move(p, x, y, z, mass, volume);
+                    p.set(points.wr, newR + relativeR);
+                    p.set(points.wz, newZ + relativeZ);
+                });
+            shifts[j] = reduce(difference) / reduce(volumeSum);
         }
-        p.set(spin_, strain.spin[0] + x * strain.spin[1] + y * strain.spin[2]);
-        const Four oldR = p.of(points.vr);
-        const Four oldZ = p.of(points.vz);
-        Four newR = oldR + moves.at(0, x, y, xy);
-        Four newZ = oldZ + moves.at(1, x, y, xy);
-        if (flip < 1) {
-            newR = flip * newR + (1 - flip) * (vr[0] + x * vr[1] + y * vr[2] + xy * vr[3]);
-            newZ = flip * newZ + (1 - flip) * (vz[0] + x * vz[1] + y * vz[2] + xy * vz[3]);
-        }
-        p.set(points.vr, newR);
-        p.set(points.vz, newZ);
-        p.set(points.volume, min(volume * growth, mass * p.ofMaterial(largestVolume_, points.material)));
-        p.set(points.r, p.of(points.r) + dt * moves.at(2, x, y, xy));
-        p.set(points.z, z + dt * moves.at(3, x, y, xy));
-    };
-    const int* const first = pointCells_.begin(c);
-    const int* const last = pointCells_.end(c);
-    if constexpr (!twoPhase) {
+    }
+    // The differences of the nodes with the mean of the points
+    for (std::size_t j = 0; twoPhase && j < cells.size(); ++j) {
         forFours(
-            first, last, points.size(), [&](const auto& p) __attribute__((always_inline)) {
-                const Four x = (p.of(points.r) - cell.r0) * (2 * cell.invDr) - 1;
-                const Four z = p.of(points.z);
-                const Four y = (z - cell.z0) * (2 * cell.invDz) - 1;
-                move(p, x, y, z, p.of(points.mass), p.of(points.volume));
-            });
-    } else {
-        const kernels::Fields flows(Shape::modes(corner.liquidMotion.data()));
-        const double increment = projects() ? pressureStep_[c] : 0;
-        const double liquidStrain = dt * strain.liquidRate;
-        Four difference = 0, volumeSum = 0;
-        forFours(
-            first, last, points.size(), [&](const auto& p) __attribute__((always_inline)) {
-                const Four x = (p.of(points.r) - cell.r0) * (2 * cell.invDr) - 1;
-                const Four z = p.of(points.z);
-                const Four y = (z - cell.z0) * (2 * cell.invDz) - 1;
-                const Four xy = x * y;
-                const Four mass = p.of(points.mass);
-                const Four volume = p.of(points.volume);
-                Four pressure = p.of(points.porePressure) + increment;
-                if (!projects()) { // storage, as in mapCellToPoints
-                    const Four inverseN =
-                        volume / (volume - mass * p.ofMaterial(liquid_, points.material,
-                                                               &LiquidProperties::grainVolume));
-                    pressure -= p.ofMaterial(liquid_, points.material, &LiquidProperties::bulkModulus) *
-                                ((inverseN - 1) * e + liquidStrain);
-                }
-                const Four shown = flows.at(3, x, y, xy) + unitWeight_ * z;
-                const Four v = p.only(volume);
-                difference += v * (pressure - shown);
-                volumeSum += v;
-                p.set(points.porePressure, shown);
-                const Four keep = flows.at(2, x, y, xy);
-                const Four relativeR = flows.at(0, x, y, xy) + keep * (p.of(points.wr) - p.of(points.vr));
-                const Four relativeZ = flows.at(1, x, y, xy) + keep * (p.of(points.wz) - p.of(points.vz));
-                move(p, x, y, z, mass, volume);
-                p.set(points.wr, p.of(points.vr) + relativeR);
-                p.set(points.wz, p.of(points.vz) + relativeZ);
-            });
-        // The differences of the nodes with the mean of the points
-        const double shift = reduce(difference) / reduce(volumeSum);
-        forFours(
-            first, last, points.size(), [&](const auto& p) __attribute__((always_inline)) {
+            pointCells_.begin(cells[j]), pointCells_.end(cells[j]),
+            size, [&](const auto& p) __attribute__((always_inline)) {
                 p.set(points.porePressure,
-                      max(p.of(points.porePressure) + shift,
-                          p.ofMaterial(liquid_, points.material, &LiquidProperties::leastPressure)));
+                      max(p.of(points.porePressure) + shifts[j],
+                          p.ofMaterial(liquid_, points, &LiquidProperties::leastPressure)));
             });
     }
 }
