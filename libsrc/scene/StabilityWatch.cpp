@@ -2,8 +2,11 @@
 
 #include "dictionary/Text.h"
 
+#include <Eigen/Core>
+
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 namespace caisson {
 
@@ -73,6 +76,59 @@ std::string finding(const Scene& scene, const MaterialPoints& points, std::size_
     return {};
 }
 
+/// Of the faster of its phases [m2/s2].
+double squareOfSpeed(const MaterialPoints& points, std::size_t p)
+{
+    const double solid = points.vr[p] * points.vr[p] + points.vz[p] * points.vz[p];
+    return points.twoPhase() ? std::max(solid, points.wr[p] * points.wr[p] + points.wz[p] * points.wz[p])
+                             : solid;
+}
+
+Eigen::Map<const Eigen::ArrayXd> arrayOf(const std::vector<double>& values)
+{
+    return {values.data(), static_cast<Eigen::Index>(values.size())};
+}
+
+std::size_t fastestOf(const MaterialPoints& points)
+{
+    double square = (arrayOf(points.vr).square() + arrayOf(points.vz).square()).maxCoeff();
+    if (points.twoPhase()) {
+        square = std::max(square, (arrayOf(points.wr).square() + arrayOf(points.wz).square()).maxCoeff());
+    }
+    constexpr double rounded = 1 - 1e-12;
+    std::size_t p = 0;
+    while (p + 1 < points.size() && squareOfSpeed(points, p) < rounded * square) {
+        ++p;
+    }
+    return p;
+}
+
+/// The first point with a quantity that is no finite number, or without volume or pores. Whole arrays are
+/// looked at before points are: most runs have none.
+std::optional<std::size_t> firstUnsound(const Scene& scene, const MaterialPoints& points)
+{
+    const auto finite = [](const std::vector<double>& values) { // no number stays one, times zero
+        return (0 * arrayOf(values)).sum() == 0;
+    };
+    double grains = 0; // volume per mass
+    for (const Material& soil : scene.materials) {
+        grains = std::max(grains, points.twoPhase() ? (1 - soil.porosity) / soil.inertialDensity() : 0.0);
+    }
+    bool sound = finite(points.r) && finite(points.z) && finite(points.vr) && finite(points.vz) &&
+                 finite(points.volume) && std::ranges::all_of(points.stress, finite) &&
+                 (arrayOf(points.volume) - grains * arrayOf(points.mass)).minCoeff() > 0;
+    if (points.twoPhase()) {
+        sound = sound && finite(points.wr) && finite(points.wz) && finite(points.porePressure);
+    }
+    for (std::size_t p = 0; !sound && p < points.size(); ++p) {
+        if (!std::isfinite(sumOfQuantities(points, p)) || points.volume[p] <= 0 ||
+            (points.twoPhase() && porosity(scene, points, p) <= 0)) {
+            return p;
+        }
+    }
+    return std::nullopt;
+}
+
 /// What may have been the cause, and what can be done.
 std::string hint(const State& state, int cell, const StableStep& stable)
 {
@@ -129,35 +185,13 @@ void StabilityWatch::lookAtBodies(const State& state, const StableStep& stable)
 void StabilityWatch::look(const Scene& scene, const State& state, const StableStep& stable)
 {
     const MaterialPoints& points = state.points;
-    const bool pores = points.twoPhase();
     // Waves of soil with scaled inertia are slower.
     const double limit = std::min(stable.waveSpeed, stable.size / stable.step);
-    std::vector<double> grainVolume; // per mass, by material
-    grainVolume.reserve(scene.materials.size());
-    for (const Material& soil : scene.materials) {
-        grainVolume.push_back(pores ? (1 - soil.porosity) / soil.inertialDensity() : 0.0);
-    }
-    std::size_t fastest = 0;
-    double square = -1;
-    for (std::size_t p = 0; p < points.size(); ++p) {
-        double own = points.vr[p] * points.vr[p] + points.vz[p] * points.vz[p];
-        if (pores) {
-            own = std::max(own, points.wr[p] * points.wr[p] + points.wz[p] * points.wz[p]);
-        }
-        const double pore = points.volume[p] - points.mass[p] * grainVolume[points.material[p]];
-        const bool sound = std::isfinite(sumOfQuantities(points, p)) && pore > 0;
-        if (!sound || own > square) {
-            fastest = p;
-            square = own;
-        }
-        if (!sound) {
-            break;
-        }
-    }
     if (points.size() == 0) {
         return;
     }
-    const double speed = std::sqrt(square);
+    const std::size_t fastest = firstUnsound(scene, points).value_or(fastestOf(points));
+    const double speed = std::sqrt(squareOfSpeed(points, fastest));
     const std::string found = finding(scene, points, fastest, speed, limit);
     if (found.empty()) {
         last_ = {points.id[fastest], points.cell[fastest], points.r[fastest], points.z[fastest], speed,

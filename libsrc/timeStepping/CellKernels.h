@@ -145,6 +145,9 @@ void ExplicitStep<Shape, phases>::classifyCells(State& state)
             // Nodes of several take the pressure of the last: that of a side rather than of what is over a
             // wall.
             std::ranges::stable_partition(voidCells_, [this](int c) { return overWall_[c] != 0; });
+            if (corners == 4) {
+                findFilterNodes();
+            }
         }
         // Sums of cells that went empty must not linger.
         for (int c = 0; c < cells; ++c) {

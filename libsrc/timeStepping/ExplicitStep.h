@@ -328,6 +328,13 @@ private:
         double spare;
     };
 
+    /// A node between four cells, of which the first two lie opposite each other.
+    struct FilterNode
+    {
+        int node;
+        std::array<int, 4> cells;
+    };
+
     /// Cells or nodes in the order of work, and where the part of each thread begins, and the last one ends.
     /// Parts of cells and of nodes are neighbours, loop after loop: what one thread has written must not
     /// come out of the cache of another.
@@ -377,6 +384,7 @@ private:
     void averageOverNodes(const std::vector<double>& ofCells, std::vector<double>& result) const;
     void averageToNodes(const std::vector<double>& ofCells) const;
     void findCheckerboardSigns();
+    void findFilterNodes();
     void filterPressures(State& state);
     void takeCheckerboard(std::vector<double>& ofCells);
     /// Steps between two uses of the filter: once while a wave of the skeleton passes a cell, where the water
@@ -632,6 +640,8 @@ private:
     mutable std::vector<double> cellPressure_, cellAverage_; ///< of the filter
     double stepsPerPassage_ = 0; ///< of a wave of the skeleton through a cell, where the filter asks for it
     std::vector<signed char> checkerboardSign_;        ///< per corner
+    std::vector<FilterNode> filterNodes_;              ///< where the filter looks (quadrilaterals)
+    std::vector<double> alternating_;                  ///< per node: what it finds there, 0 elsewhere
     std::vector<double> cellLiquidRate_;               ///< as cellRate_, for the liquid
     std::vector<double> loadedArea_;                   ///< per load: of its points (see loadedAreas)
     std::vector<std::array<double, 2>> pointTraction_; ///< per load, now [Pa]

@@ -507,6 +507,30 @@ void ExplicitStep<Shape, phases>::findCheckerboardSigns()
     }
 }
 
+/// Nodes at which the filter looks for a checkerboard: not beside a free surface.
+template <class Shape, int phases>
+void ExplicitStep<Shape, phases>::findFilterNodes()
+{
+    filterNodes_.clear();
+    alternating_.assign(nodes_.size(), 0);
+    for (const int i : activeNodes_) {
+        FilterNode node{i, {}};
+        int positive = 0, negative = 2;
+        for (int k = nodeCorners_.start[i]; k < nodeCorners_.start[i + 1]; ++k) {
+            const int corner = nodeCorners_.item[k];
+            const int c = corner / corners;
+            if (checkerboardSign_[corner] == 0 || !occupied_[c] || bySurface_[c]) {
+                positive = 0;
+                break;
+            }
+            node.cells[checkerboardSign_[corner] > 0 ? positive++ : negative++] = c;
+        }
+        if (positive > 0) {
+            filterNodes_.push_back(node);
+        }
+    }
+}
+
 /// Cells of one pressure do not feel a checkerboard of it: no flow levels it. Its share, taken twice of a
 /// smooth field, is O(h^8) in quadrilaterals and O(h^4) in triangles.
 template <class Shape, int phases>
@@ -536,22 +560,26 @@ void ExplicitStep<Shape, phases>::filterPressures(State& state)
 template <class Shape, int phases>
 void ExplicitStep<Shape, phases>::takeCheckerboard(std::vector<double>& ofCells)
 {
-    constexpr double nothing = std::numeric_limits<double>::quiet_NaN();
     if constexpr (corners == 4) {
-        ofNodes_.resize(nodes_.size());
-        forNodes([&](int i) {
-            double sum = 0, least = std::numeric_limits<double>::max();
-            bool sees = true;
-            for (int k = nodeCorners_.start[i]; k < nodeCorners_.start[i + 1]; ++k) {
-                const int corner = nodeCorners_.item[k];
-                const int c = corner / corners;
-                sees = sees && occupied_[c] && !bySurface_[c] && checkerboardSign_[corner] != 0;
-                sum += checkerboardSign_[corner] * ofCells[c];
-                least = std::min(least, dilatation_[c].volume); // none gets more than it can bear
+        threads_.share(static_cast<int>(filterNodes_.size()), nodesPerPiece, [&](int, int begin, int end) {
+            for (int j = begin; j < end; ++j) {
+                const auto& [node, c] = filterNodes_[j];
+                const double least = std::min(std::min(dilatation_[c[0]].volume, dilatation_[c[1]].volume),
+                                              std::min(dilatation_[c[2]].volume, dilatation_[c[3]].volume));
+                // None gets more than it can bear.
+                alternating_[node] =
+                    least / 16 * ((ofCells[c[0]] + ofCells[c[1]]) - (ofCells[c[2]] + ofCells[c[3]]));
             }
-            ofNodes_[i] = sees ? least * sum / 16 : nothing;
+        });
+        forCells([&](int c) {
+            double sum = 0;
+            for (int k = c * corners; k < (c + 1) * corners; ++k) {
+                sum += checkerboardSign_[k] * alternating_[cellNodes_[k]];
+            }
+            ofCells[c] = sum / dilatation_[c].volume;
         });
     } else {
+        constexpr double nothing = std::numeric_limits<double>::quiet_NaN();
         averageToNodes(ofCells);
         forNodes([&](int i) {
             bool sees = std::isnan(givenPressure_[i]);
@@ -561,18 +589,15 @@ void ExplicitStep<Shape, phases>::takeCheckerboard(std::vector<double>& ofCells)
             }
             ofNodes_[i] = sees ? ofNodes_[i] : nothing;
         });
-    }
-    forCells([&](int c) {
-        double sum = 0;
-        for (int k = 0; k < corners; ++k) {
-            const double ofNode = ofNodes_[cellNodes_[c * corners + k]];
-            if (!std::isnan(ofNode)) {
-                sum += corners == 4 ? checkerboardSign_[c * corners + k] * ofNode / dilatation_[c].volume
-                                    : (ofCells[c] - ofNode) / corners;
+        forCells([&](int c) {
+            double sum = 0;
+            for (int k = 0; k < corners; ++k) {
+                const double ofNode = ofNodes_[cellNodes_[c * corners + k]];
+                sum += std::isnan(ofNode) ? 0 : (ofCells[c] - ofNode) / corners;
             }
-        }
-        ofCells[c] = sum;
-    });
+            ofCells[c] = sum;
+        });
+    }
 }
 
 template <class Shape, int phases>
