@@ -156,7 +156,6 @@ void ExplicitStep<Shape, phases>::classifyCells(State& state)
                 const std::ptrdiff_t first = static_cast<std::ptrdiff_t>(c) * corners;
                 std::fill_n(cornerSums_.begin() + first, corners, Corner{});
                 if constexpr (twoPhase) {
-                    std::fill_n(liquidCorners_.begin() + first, corners, LiquidCorner{});
                     if (pumped_) {
                         std::fill_n(voidForce_.begin() + first, corners, std::array<double, 2>{});
                     }

@@ -102,7 +102,7 @@ private:
     static constexpr int momentCount = shapes::Moments<corners>::count;
 
     /// What the points of one cell add to one of its corners.
-    struct alignas(64) Corner
+    struct alignas(64) SolidCorner
     {
         double mass = 0, momentumR = 0, momentumZ = 0;
         double fullMass = 0; ///< what it would be in a cell evenly filled
@@ -132,20 +132,25 @@ private:
         double spare = 0;
     };
 
-    /// Sum of what the cells around a node have on it, four numbers at once.
-    template <class OfCorner>
-    [[nodiscard]] OfCorner gather(const std::vector<OfCorner>& ofCorners, int i) const
+    struct TwoPhaseCorner : SolidCorner
     {
-        constexpr std::size_t fours = sizeof(OfCorner) / (4 * sizeof(double));
+        LiquidCorner liquid;
+    };
+    using Corner = std::conditional_t<twoPhase, TwoPhaseCorner, SolidCorner>;
+
+    /// Sum of what the cells around a node have on it, four numbers at once.
+    [[nodiscard]] Corner gather(int i) const
+    {
+        constexpr std::size_t fours = sizeof(Corner) / (4 * sizeof(double));
         std::array<Four, fours> sums;
         sums.fill(0);
         for (int k = nodeCorners_.start[i]; k < nodeCorners_.start[i + 1]; ++k) {
-            const double* const ofCorner = &ofCorners[nodeCorners_.item[k]].mass;
+            const double* const ofCorner = &cornerSums_[nodeCorners_.item[k]].mass;
             for (std::size_t j = 0; j < fours; ++j) {
                 sums[j] += fourFrom(ofCorner[4 * j]);
             }
         }
-        OfCorner sum;
+        Corner sum;
         for (std::size_t j = 0; j < fours; ++j) {
             setFour((&sum.mass)[4 * j], sums[j]);
         }
@@ -162,9 +167,10 @@ private:
             if (j + ahead < nodes.size()) {
                 const int i = nodes[j + ahead];
                 for (int k = nodeCorners_.start[i]; k < nodeCorners_.start[i + 1]; ++k) {
-                    __builtin_prefetch(&cornerSums_[nodeCorners_.item[k]]);
+                    const Corner& corner = cornerSums_[nodeCorners_.item[k]];
+                    __builtin_prefetch(&corner);
                     if constexpr (twoPhase) {
-                        __builtin_prefetch(&liquidCorners_[nodeCorners_.item[k]]);
+                        __builtin_prefetch(&corner.liquid);
                     }
                 }
             }
@@ -458,7 +464,8 @@ private:
     void prepareLiquid(const State& state);
     void updateSurfacePressures(const State& state);
     [[nodiscard]] double suction(const RigidBody& body) const;
-    void mapLiquidToNodes(const State& state, int c);
+    void mapLiquidToNodes(const State& state, int c)
+        requires twoPhase;
     void mapVoidToNodes(int c);
     void pump(State& state, double dt);
     [[nodiscard]] bool projects() const
@@ -488,7 +495,8 @@ private:
     void updateDilatationRows(const State& state, double dt);
     void multiplyPressures(const Eigen::VectorXd& x, Eigen::VectorXd& product);
     void factorisePressures();
-    void solveTwoPhaseNode(int i, const Corner& solid, const LiquidCorner& sum, double dt);
+    void solveTwoPhaseNode(int i, const Corner& solid, double dt)
+        requires twoPhase;
     void solveLiquidAgain(int i, const std::array<double, 2>& direction);
     void applyLiquidConditions(double time, bool remapped);
     void applyConditions(double time, bool remapped);
@@ -625,7 +633,6 @@ private:
     std::vector<double> seepage_;   ///< per node: excess pressure [Pa]
     std::vector<double> wallWater_; ///< per body: vertical force of the water on it [N/rad or N/m]
     // Two phases only.
-    std::vector<LiquidCorner> liquidCorners_;
     std::vector<LiquidNode> liquidNodes_;
     std::vector<std::array<bool, 2>> solidHeld_;   ///< per node of the liquid's boundary and direction
     std::vector<LiquidProperties> liquid_;         ///< per material

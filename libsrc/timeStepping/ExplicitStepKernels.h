@@ -192,7 +192,6 @@ ExplicitStep<Shape, phases>::ExplicitStep(const Scene& scene, State& state)
     }
     cellRate_.assign(cells, 0);
     if constexpr (twoPhase) {
-        liquidCorners_.resize(cells * corners);
         liquidNodes_.resize(mesh.nodes());
         findCheckerboardSigns();
         wallArea_.resize(mesh.nodes());

@@ -296,7 +296,7 @@ void ExplicitStep<Shape, phases>::sampleFemCell(int c)
         }
         if constexpr (twoPhase) {
             const LiquidNode& liquidNode = liquidNodes_[cellNodes_[c * corners + k]];
-            LiquidCorner& liquid = liquidCorners_[c * corners + k];
+            LiquidCorner& liquid = cornerSums_[c * corners + k].liquid;
             FemLiquidCell& kept = femLiquidCells_[f];
             kept.mass[k] = inverse * liquid.mass;
             kept.drag[k] = liquid.drag;
@@ -629,25 +629,26 @@ void ExplicitStep<Shape, phases>::mapFemEdgeToNodes(int f)
         const FemForce& force = femForces_[static_cast<std::size_t>(f) * corners + k];
         const double mass = inertia * fem.mass[k];
         const double weight = fem.mass[k] * weighing(fem.material);
-        cornerSums_[c * corners + k] = {mass,
-                                        mass * node.vr,
-                                        mass * node.vz,
-                                        mass,
-                                        force[0] + weight * scene_.gravity[0],
-                                        force[1] + weight * scene_.gravity[1]};
+        Corner& corner = cornerSums_[c * corners + k];
+        static_cast<SolidCorner&>(corner) = {mass,
+                                             mass * node.vr,
+                                             mass * node.vz,
+                                             mass,
+                                             force[0] + weight * scene_.gravity[0],
+                                             force[1] + weight * scene_.gravity[1]};
         if constexpr (twoPhase) {
             const FemLiquidCell& liquid = femLiquidCells_[f];
             const LiquidNode& old = liquidNodes_[i];
             const double liquidMass = inertia * liquid.mass[k];
-            cornerSums_[c * corners + k].pressureR = force[2];
-            cornerSums_[c * corners + k].pressureZ = force[3];
-            liquidCorners_[c * corners + k] = {liquidMass,
-                                               liquidMass * (node.vr + old.relativeVr),
-                                               liquidMass * (node.vz + old.relativeVz),
-                                               liquid.drag[k],
-                                               liquid.volume[k],
-                                               liquid.poreVolume[k],
-                                               fem_.pressure[f] * liquid.volume[k]};
+            corner.pressureR = force[2];
+            corner.pressureZ = force[3];
+            corner.liquid = {liquidMass,
+                             liquidMass * (node.vr + old.relativeVr),
+                             liquidMass * (node.vz + old.relativeVz),
+                             liquid.drag[k],
+                             liquid.volume[k],
+                             liquid.poreVolume[k],
+                             fem_.pressure[f] * liquid.volume[k]};
         }
     }
 }
@@ -662,7 +663,7 @@ void ExplicitStep<Shape, phases>::keepFemMomentum(int c)
         corner.momentumR = corner.mass * nodes_[i].vr;
         corner.momentumZ = corner.mass * nodes_[i].vz;
         if constexpr (twoPhase) {
-            LiquidCorner& liquid = liquidCorners_[c * corners + k];
+            LiquidCorner& liquid = corner.liquid;
             liquid.momentumR = liquid.mass * liquidNodes_[i].relativeVr;
             liquid.momentumZ = liquid.mass * liquidNodes_[i].relativeVz;
         }

@@ -52,6 +52,7 @@ void ExplicitStep<Shape, phases>::prepareLiquid(const State& state)
 
 template <class Shape, int phases>
 void ExplicitStep<Shape, phases>::mapLiquidToNodes(const State& state, int c)
+    requires twoPhase
 {
     const MaterialPoints& points = state.points;
     const typename Shape::Cell& cell = cells_[c];
@@ -184,12 +185,12 @@ void ExplicitStep<Shape, phases>::mapLiquidToNodes(const State& state, int c)
     }
     const double scaled = inertiaScale_[c] * fullness_[c];
     const Four scale = four(scaled, scaled, scaled, fullness_[c]);
-    LiquidCorner* const out = &liquidCorners_[c * corners];
+    Corner* const out = &cornerSums_[c * corners];
     for (int k = 0; k < corners; ++k) {
-        setFour(out[k].mass, scale * inertia[k]);
-        setFour(out[k].volume, volumes[k]);
-        cornerSums_[c * corners + k].pressureR = forceR[k];
-        cornerSums_[c * corners + k].pressureZ = forceZ[k];
+        setFour(out[k].liquid.mass, scale * inertia[k]);
+        setFour(out[k].liquid.volume, volumes[k]);
+        out[k].pressureR = forceR[k];
+        out[k].pressureZ = forceZ[k];
     }
 }
 
@@ -250,9 +251,10 @@ void ExplicitStep<Shape, phases>::pump(State& state, double dt)
 }
 
 template <class Shape, int phases>
-void ExplicitStep<Shape, phases>::solveTwoPhaseNode(int i, const Corner& solid, const LiquidCorner& sum,
-                                                    double dt)
+void ExplicitStep<Shape, phases>::solveTwoPhaseNode(int i, const Corner& solid, double dt)
+    requires twoPhase
 {
+    const LiquidCorner& sum = solid.liquid;
     Node& node = nodes_[i];
     LiquidNode& liquid = liquidNodes_[i];
     const double n = sum.poreVolume / sum.volume;

@@ -12,7 +12,7 @@ void ExplicitStep<Shape, phases>::solveNodes(State& state, double dt)
     const bool tractions = scene_.conditions.hasTractions();
     const bool seepage = !twoPhase && !seepage_.empty();
     const auto solve = [&](int i) {
-        Corner sum = gather(cornerSums_, i);
+        Corner sum = gather(i);
         Node& node = nodes_[i];
         node.mass = sum.mass;
         looseNode_[i] = surfaceNode_[i] != 0 || sum.mass < kernels::looseShare * sum.fullMass;
@@ -32,7 +32,7 @@ void ExplicitStep<Shape, phases>::solveNodes(State& state, double dt)
             sum.forceZ += waterLoad_[i][1];
         }
         if constexpr (twoPhase) {
-            solveTwoPhaseNode(i, sum, gather(liquidCorners_, i), dt);
+            solveTwoPhaseNode(i, sum, dt);
             return;
         }
         const double inverse = 1 / sum.mass;

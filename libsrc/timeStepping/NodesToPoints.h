@@ -282,7 +282,7 @@ void ExplicitStep<Shape, phases>::addRemappedMomentum(const State& state, int c)
     for (int k = 0; k < corners; ++k) {
         out[k].momentumR = out[k].momentumZ = 0;
         if constexpr (twoPhase) {
-            liquidCorners_[c * corners + k].momentumR = liquidCorners_[c * corners + k].momentumZ = 0;
+            out[k].liquid.momentumR = out[k].liquid.momentumZ = 0;
         }
     }
     Values values;
@@ -305,7 +305,7 @@ void ExplicitStep<Shape, phases>::addRemappedMomentum(const State& state, int c)
             const double liquid = inertiaScale_[c] * fullness_[c] * porosity(points, p) *
                                   liquid_[points.material[p]].density * points.volume[p];
             for (int k = 0; k < corners; ++k) {
-                LiquidCorner& corner = liquidCorners_[c * corners + k];
+                LiquidCorner& corner = cornerSums_[c * corners + k].liquid;
                 corner.momentumR += values.N[k] * liquid * (points.wr[p] - points.vr[p]);
                 corner.momentumZ += values.N[k] * liquid * (points.wz[p] - points.vz[p]);
             }
@@ -459,8 +459,8 @@ void ExplicitStep<Shape, phases>::mapToPoints(State& state, double dt)
                 LiquidNode& liquid = liquidNodes_[i];
                 r = z = 0;
                 for (int k = nodeCorners_.start[i]; k < nodeCorners_.start[i + 1]; ++k) {
-                    r += liquidCorners_[nodeCorners_.item[k]].momentumR;
-                    z += liquidCorners_[nodeCorners_.item[k]].momentumZ;
+                    r += cornerSums_[nodeCorners_.item[k]].liquid.momentumR;
+                    z += cornerSums_[nodeCorners_.item[k]].liquid.momentumZ;
                 }
                 liquid.relativeVr = r / liquid.mass;
                 liquid.relativeVz = z / liquid.mass;

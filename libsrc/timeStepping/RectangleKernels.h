@@ -172,7 +172,7 @@ void ExplicitStep<Shape, phases>::sumByFours(const State& state, std::span<const
             to.fullMass = fullMass * share[k];
             setFour(to.forceR, inertia[k][3] * gravity + pushes[k]);
             if constexpr (twoPhase) {
-                LiquidCorner& ofLiquid = liquidCorners_[c * corners + k];
+                LiquidCorner& ofLiquid = to.liquid;
                 setFour(ofLiquid.mass, four(scale, scale, scale, whole) * liquid[k]);
                 const double volume = whole * volumes[k][0]; // the force takes the whole cell
                 setFour(ofLiquid.volume, four(volume, whole * volumes[k][1], mean * volume, 0));
