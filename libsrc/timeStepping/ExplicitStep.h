@@ -536,7 +536,7 @@ private:
     {
         return gravityShare_[material] / (twoPhase ? solidShare_[material] : 1.0);
     }
-    void wakeBesideBodies();
+    void wakeBesideBodies(const MaterialPoints& points);
     void numberFemNodes();
     void sampleFemCell(int c);
     void sumInnerNodes();

@@ -110,7 +110,7 @@ void ExplicitStep<Shape, phases>::chooseFemCells(const State& state)
         steps[c] = state.filled[c] != 0 ? mayRest(state, c, step) : 0;
         rests_[c] = steps[c] > 0;
     });
-    wakeBesideBodies();
+    wakeBesideBodies(points);
     // Nodes of partly filled cells may be loose.
     for (const int c : active_.items) {
         for (int k = 0; !state.filled[c] && k < corners; ++k) {
@@ -171,14 +171,19 @@ void ExplicitStep<Shape, phases>::chooseFemCells(const State& state)
     numberFemNodes();
 }
 
-/// No cell rests that is nearer to a body or a free surface than femDistance.
+/// No cell rests that is nearer to a body, a free surface or loaded points than femDistance.
 template <class Shape, int phases>
-void ExplicitStep<Shape, phases>::wakeBesideBodies()
+void ExplicitStep<Shape, phases>::wakeBesideBodies(const MaterialPoints& points)
 {
-    std::vector<unsigned char> near(nodes_.size());
+    std::vector<unsigned char> near(nodes_.size(), 0);
+    for (std::size_t p = 0; points.loaded() && p < points.size(); ++p) {
+        for (int k = 0; points.load[p] >= 0 && k < corners; ++k) {
+            near[cellNodes_[points.cell[p] * corners + k]] = 1;
+        }
+    }
     std::vector<int> front;
     for (int i = 0; i < static_cast<int>(nodes_.size()); ++i) {
-        near[i] = contactNode_[i] != 0 || surfaceNode_[i] != 0;
+        near[i] |= contactNode_[i] | surfaceNode_[i];
         if (near[i]) {
             front.push_back(i);
         }

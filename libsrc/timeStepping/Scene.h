@@ -38,7 +38,7 @@ struct SolutionControls
     enum class PressureCoupling { explicitStep, projection, quasiSteady };
 
     /// Cells whose points rest between two sorts while the cell itself is a finite element: none, or all
-    /// filled ones that are femDistance cells away from bodies and surfaces.
+    /// filled ones that are femDistance cells away from bodies, surfaces and loads.
     enum class FemCells { none, automatic };
 
     double boxWidth = 0; ///< of a point's box over that of its cell [-]; 0: shape functions at the point

@@ -246,6 +246,28 @@ TEST(FemCells, keepToTheirZone)
     EXPECT_EQ(simulation.step->cellCounts(simulation.state).fem, 6);
 }
 
+TEST(FemCells, keepTheirDistanceFromLoads)
+{
+    Simulation simulation = block({"", Geometry::planeStrain, false}, elasticSolid(E, nu, density),
+                                  evenLines(0, 8, 8), evenLines(0, 8, 8));
+    letPointsRest(simulation, 50, 3);
+    simulation.start();
+    EXPECT_EQ(simulation.step->cellCounts(simulation.state).fem, 64); // there is no surface
+    MaterialPoints& points = simulation.state.points;
+    InputProblems problems;
+    simulation.scene.pointLoads =
+        readPointLoads(parseDictionary("press { type force; uniformValue (1 0 0); }", "pointLoads"),
+                       Geometry::planeStrain, problems);
+    problems.throwIfAny("test loads");
+    points.load.assign(points.size(), -1);
+    points.loadArea.assign(points.size(), 1);
+    for (std::size_t p = 0; p < points.size(); ++p) {
+        points.load[p] = points.r[p] < 1 ? 0 : -1;
+    }
+    simulation.start();
+    EXPECT_EQ(simulation.step->cellCounts(simulation.state).fem, 32) << "three columns between them";
+}
+
 // A fall that begins while the points rest is no worse for it: they wake in time.
 TEST(FemCells, wakeBeforeTheirPointsHaveLeftThem)
 {
