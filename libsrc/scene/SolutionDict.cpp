@@ -30,7 +30,8 @@ constexpr Keyword keywords[] = {
     {"boxZone", "word", "-", "", "cellZone whose points have boxes; everywhere without it"},
     {"femCells", "word", "none", "none automatic",
      "automatic: cells well inside the soil are finite elements, whose points rest from sort to sort"},
-    {"femDistance", "integer", "6", "[1, 1000]", "cells between an FEM cell and a body, a free surface or a loaded cell"},
+    {"femDistance", "integer", "6", "[1, 1000]",
+     "cells between an FEM cell and a body, a free surface or a loaded cell"},
     {"femZone", "word", "-", "", "cellZone that FEM cells are in; anywhere without it"},
     {"femMotion", "-", "0.2", "(0, 1]",
      "cells that points of FEM cells may move relative to the mesh until the next sort; those that would "
