@@ -25,11 +25,12 @@ double sumOfQuantities(const MaterialPoints& points, std::size_t p)
     return sum;
 }
 
+/// Volume of the grains per mass of the points [m3/kg].
+double grainVolume(const Material& soil) { return (1 - soil.porosity) / soil.inertialDensity(); }
+
 double porosity(const Scene& scene, const MaterialPoints& points, std::size_t p)
 {
-    const Material& soil = scene.materials[points.material[p]];
-    const double solidShare = (1 - soil.porosity) * soil.solidDensity / soil.inertialDensity();
-    return 1 - points.mass[p] * solidShare / soil.solidDensity / points.volume[p];
+    return 1 - points.mass[p] * grainVolume(scene.materials[points.material[p]]) / points.volume[p];
 }
 
 /// The first of the point's quantities that is no number.
@@ -110,9 +111,9 @@ std::optional<std::size_t> firstUnsound(const Scene& scene, const MaterialPoints
     const auto finite = [](const std::vector<double>& values) { // no number stays one, times zero
         return (0 * arrayOf(values)).sum() == 0;
     };
-    double grains = 0; // volume per mass
+    double grains = 0;
     for (const Material& soil : scene.materials) {
-        grains = std::max(grains, points.twoPhase() ? (1 - soil.porosity) / soil.inertialDensity() : 0.0);
+        grains = std::max(grains, points.twoPhase() ? grainVolume(soil) : 0.0);
     }
     bool sound = finite(points.r) && finite(points.z) && finite(points.vr) && finite(points.vz) &&
                  finite(points.volume) && std::ranges::all_of(points.stress, finite) &&
@@ -121,8 +122,7 @@ std::optional<std::size_t> firstUnsound(const Scene& scene, const MaterialPoints
         sound = sound && finite(points.wr) && finite(points.wz) && finite(points.porePressure);
     }
     for (std::size_t p = 0; !sound && p < points.size(); ++p) {
-        if (!std::isfinite(sumOfQuantities(points, p)) || points.volume[p] <= 0 ||
-            (points.twoPhase() && porosity(scene, points, p) <= 0)) {
+        if (!finding(scene, points, p, 0, 0).empty()) {
             return p;
         }
     }
