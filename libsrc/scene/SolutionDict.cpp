@@ -38,6 +38,9 @@ constexpr Keyword keywords[] = {
      "move "
      "further do not rest"},
     {"femStrain", "-", "0.005", "(0, 1]", "strain that they may have until the next sort, likewise"},
+    {"femViscosity", "-", "0.1", "[0, 1]",
+     "viscosity of FEM cells that yield, lest vibrations grow: pi times this h/l of the critical damping for "
+     "waves of length l over cells of size h"},
     {"velocityRemap", "word", "loose", "none loose all",
      "nodes whose velocity is mapped again from the points before strains are taken from it"},
     {"pressureCoupling", "word", "explicit", "explicit projection quasiSteady",
@@ -167,6 +170,7 @@ SolutionControls readSolutionControls(const Dictionary& mpmSolution, bool triang
     controls.femZone = reader.has("femZone") ? reader.word("femZone") : std::string();
     controls.femMotion = reader.number("femMotion");
     controls.femStrain = reader.number("femStrain");
+    controls.femViscosity = reader.number("femViscosity");
     controls.seepageInterval = reader.number("seepageInterval");
     controls.seepageRamp = reader.number("seepageRamp");
     controls.seepageGate = reader.number("seepageGate");

@@ -95,7 +95,8 @@ private:
     // Pieces of work that a thread takes at a time
     static constexpr int cellsPerPiece = 16;
     static constexpr int nodesPerPiece = 128;
-    static constexpr int pointsPerPiece = 256; ///< or FEM cells
+    static constexpr int pointsPerPiece = 256;     ///< or FEM cells
+    static constexpr double viscousReserve = 1.01; ///< how much a step may grow before it is set anew
     using Values = shapes::Values<corners>;
     using Dilatation = shapes::MeanDilatation<corners>;
 
@@ -273,11 +274,14 @@ private:
         std::array<std::vector<double>, 4> stress;            ///< mean [Pa]
         std::array<std::vector<double>, 4> slopeXi, slopeEta; ///< of the stress [Pa]
         std::vector<double> shareXi,
-            shareEta;                   ///< of the slopes at the points that a cell has (kernels::Spread)
-        std::vector<double> tangent;    ///< share of the elastic stiffness that the mean has shown last
-        std::vector<double> dilatation; ///< since the points rest
-        std::vector<double> pressure;   ///< of the liquid in excess, mean [Pa]
-        std::vector<double> porosity;   ///< mean
+            shareEta; ///< of the slopes at the points that a cell has (kernels::Spread)
+        std::array<std::vector<double>, 4> yielding; ///< see setYielding
+        std::vector<double>
+            yielded; ///< share of the elastic stiffness in shear lost in that direction, at most
+        std::vector<double> dilatation;         ///< since the points rest
+        std::vector<double> pressure;           ///< of the liquid in excess, mean [Pa]
+        std::vector<double> porosity;           ///< mean
+        std::vector<double> viscousTime;        ///< viscosity over elastic stiffness [s]
         std::vector<std::vector<double>> state; ///< variables of the laws
 
         void resize(std::size_t size);
@@ -288,6 +292,7 @@ private:
     {
         static constexpr int size = 64;
         int begin; ///< among the cells at rest
+        double dt;
         alignas(64) double strain[4][size];
         alignas(64) double spin[size];
         alignas(64) double stressBefore[4][size]; ///< mean, before the step [Pa]
@@ -537,12 +542,16 @@ private:
         return gravityShare_[material] / (twoPhase ? solidShare_[material] : 1.0);
     }
     void wakeBesideBodies(const MaterialPoints& points);
+    void setFemViscosity(const State& state, double dt);
     void numberFemNodes();
     void sampleFemCell(int c);
+    void addViscousForces(int c);
+    template <class Real>
+    void addFemViscosity(int material, const Real& share, const Real (&strain)[4], Real (&stress)[4]) const;
     void sumInnerNodes();
     void mapFemCellsToNodes();
     template <class Real, class Count>
-    void addFemForces(const State& state, int material, int f, Count count);
+    void addFemForces(const State& state, const FemBlock& block, int material, int f, Count count);
     void mapFemEdgeToNodes(int f);
     void solveInnerNodes(double dt);
     [[nodiscard]] FemForce innerForce(int j) const;
@@ -550,7 +559,7 @@ private:
         requires(hasFours && twoPhase);
     void keepFemMomentum(int c);
     template <class Real, class Count>
-    void setTangentShare(const FemBlock& block, int material, int f, Count count);
+    void setYielding(const FemBlock& block, int material, int f, Count count);
     template <class Count>
     void strainFemCells(State& state, double dt, FemBlock& block, int material, int f, Count count);
     void updateFemCells(State& state, double dt);
@@ -673,6 +682,7 @@ private:
     // Cells whose points rest; empty where none may.
     std::vector<int> femOf_;           ///< per cell: index of its FemCell, or -1
     std::vector<unsigned char> rests_; ///< per cell: is one
+    std::vector<long> yieldedAt_;      ///< per cell: step when it was one last that had yielded
     std::vector<FemCell> femCells_;
     std::vector<FemLiquidCell> femLiquidCells_;
     std::vector<int> femEdge_;                    ///< FEM cells with a node that is no inner one
@@ -693,9 +703,13 @@ private:
     mutable StableStep femStep_{};            ///< that FEM cells allow; 0 where not known
     std::vector<PointCells::Run> femRuns_;    ///< FEM cells of one material
     FemFields fem_;
-    std::vector<double> shearModulus_; ///< per material [Pa]
-    long femSteps_ = 0;                ///< steps that the points rest already
-    double femFlip_ = 1;               ///< share of the FLIP velocity that these steps leave
+    std::vector<double> shearModulus_, pWaveModulus_; ///< per material [Pa]
+    // Speed of the waves of the soil [m/s]: with its liquid or, where that may leave, without; and without
+    // it.
+    std::vector<double> skeletonSpeed_, drainedSpeed_;
+    long femSteps_ = 0;      ///< steps that the points rest already
+    double viscousStep_ = 0; ///< longest step that the viscosity of FEM cells is set for [s]
+    double femFlip_ = 1;     ///< share of the FLIP velocity that these steps leave
     // Boxes of points; empty where none has one.
     std::vector<BoxCell> boxCell_; ///< per cell
     std::vector<std::array<int, 9>>

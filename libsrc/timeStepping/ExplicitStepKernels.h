@@ -96,11 +96,14 @@ ExplicitStep<Shape, phases>::ExplicitStep(const Scene& scene, State& state)
                                      : std::numeric_limits<double>::max());
         gravityShare_.push_back(material.weighingDensity() / material.inertialDensity());
         shearModulus_.push_back(material.law->shearModulus());
+        pWaveModulus_.push_back(material.law->pWaveModulus());
         // Projection: the pressure follows, and the soil may leave its liquid behind.
         const double ofSolid = (1 - material.porosity) * material.solidDensity;
         const double skeleton = projects() ? ofSolid : material.inertialDensity();
         waveSpeed_.push_back(twoPhase && !projects() ? kernels::fastWave(material)
                                                      : std::sqrt(material.law->pWaveModulus() / skeleton));
+        skeletonSpeed_.push_back(std::sqrt(pWaveModulus_.back() / skeleton));
+        drainedSpeed_.push_back(twoPhase ? std::sqrt(pWaveModulus_.back() / ofSolid) : skeletonSpeed_.back());
         solidShare_.push_back(twoPhase ? ofSolid / material.inertialDensity() : 1);
         if constexpr (twoPhase) {
             liquid_.push_back(
@@ -260,6 +263,7 @@ void ExplicitStep<Shape, phases>::rebuild(State& state)
         relocate(state, false);
     }
     rests_.clear();
+    yieldedAt_.assign(cells_.size(), std::numeric_limits<int>::min());
     pressureSolver_.forget();
     pressureStep_.setZero();
     pointCells_.index(state.points, state.mesh.cells());
@@ -312,6 +316,9 @@ void ExplicitStep<Shape, phases>::advance(State& state, double dt)
     moveBodies(state, dt);
     for (std::size_t b = 0; b < state.bodies.size(); ++b) {
         impulseBefore_[b] = state.reactions[b].totalVerticalImpulse();
+    }
+    if (dt > viscousStep_) {
+        setFemViscosity(state, dt);
     }
     mapToNodes(state);
     solveNodes(state, dt);

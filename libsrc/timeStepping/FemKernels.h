@@ -82,10 +82,13 @@ void ExplicitStep<Shape, phases>::FemFields::resize(std::size_t size)
             component.resize(size);
         }
     }
-    for (auto* values : {&shareXi, &shareEta, &pressure, &porosity}) {
+    for (auto* values : {&shareXi, &shareEta, &pressure, &porosity, &viscousTime}) {
         values->resize(size);
     }
-    tangent.assign(size, 1);
+    for (std::vector<double>& component : yielding) {
+        component.assign(size, 0);
+    }
+    yielded.assign(size, 0);
     dilatation.assign(size, 0);
     for (std::vector<double>& variable : state) {
         variable.resize(size);
@@ -169,6 +172,36 @@ void ExplicitStep<Shape, phases>::chooseFemCells(const State& state)
     });
     femForces_.resize(chosen.size() * corners);
     numberFemNodes();
+    viscousStep_ = 0;
+}
+
+/// Soil that dilates less than it rubs feeds vibrations as it yields. Cells of points lose what points do not
+/// see of a velocity in every step, which takes the shortest waves away; those at rest would keep them. So
+/// the soil of cells that have yielded not long ago has a viscosity, its elastic stiffness times a share b
+/// of the passage h/c_s of its own wave. Of a wave of length l over cells of size h it is pi b h/l of the
+/// critical damping. No more than the step leaves: with waves of the speed c, and c_d that of the soil
+/// without its liquid, the step is stable to
+///
+///     (c dt/h)^2 + 2 b c_d^2/(c_s c) c dt/h = 1.
+template <class Shape, int phases>
+void ExplicitStep<Shape, phases>::setFemViscosity(const State& state, double dt)
+{
+    constexpr long longAgo = 500; // steps, some periods of the shortest waves
+    viscousStep_ = viscousReserve * dt;
+    for (std::size_t f = 0; f < femCells_.size(); ++f) {
+        const int c = femCells_[f].cell;
+        const int material = femCells_[f].material;
+        fem_.viscousTime[f] = 0;
+        if (state.step - yieldedAt_[c] < longAgo) {
+            const double drained = drainedSpeed_[material];
+            const double skeleton = skeletonSpeed_[material];
+            const double courant = std::min(1.0, viscousStep_ / cellStep(state, c));
+            const double most = (1 - courant * courant) / (2 * courant) * skeleton * waveSpeed_[material] /
+                                (drained * drained);
+            fem_.viscousTime[f] = std::min(scene_.controls.femViscosity, most) * Shape::size(cells_[c]) *
+                                  std::sqrt(inertiaScale_[c]) / skeleton;
+        }
+    }
 }
 
 /// No cell rests that is nearer to a body, a free surface or loaded points than femDistance.
@@ -317,6 +350,33 @@ void ExplicitStep<Shape, phases>::sampleFemCell(int c)
     }
     if constexpr (twoPhase) {
         fem_.porosity[f] = poreVolume / volume;
+    }
+    if (fem_.viscousTime[f] > 0) {
+        addViscousForces(c);
+    }
+}
+
+/// In the step that samples a cell its viscosity takes the velocities that its nodes have.
+template <class Shape, int phases>
+void ExplicitStep<Shape, phases>::addViscousForces(int c)
+{
+    double vr[corners], vz[corners];
+    for (int k = 0; k < corners; ++k) {
+        const Node& node = nodes_[cellNodes_[c * corners + k]];
+        vr[k] = node.vr;
+        vz[k] = node.vz;
+    }
+    shapes::VelocityGradient<corners> rate;
+    Shape::velocityGradient(cells_[c], vr, vz, rate);
+    const double mean[4] = {rate[0][0], rate[0][1], rate[0][2], rate[0][3] + rate[0][4]};
+    shapes::StressField<corners> stress{};
+    addFemViscosity<double>(femCells_[femOf_[c]].material, fem_.viscousTime[femOf_[c]], mean, stress[0]);
+    double forceR[corners] = {}, forceZ[corners] = {};
+    Shape::addForces(cells_[c], stress, forceR, forceZ);
+    for (int k = 0; k < corners; ++k) {
+        Corner& corner = cornerSums_[c * corners + k];
+        corner.forceR += forceR[k];
+        corner.forceZ += forceZ[k];
     }
 }
 
@@ -541,26 +601,56 @@ StableStep ExplicitStep<Shape, phases>::femStep(const State& state) const
 
 namespace kernels {
 
-/// one/other within 0 and 1, and 1 where other is zero.
+/// one/other within 0 and 1, and 0 where other is zero.
 template <class Real>
 [[gnu::always_inline]] inline Real shareOf(const Real& one, const Real& other)
 {
     if constexpr (std::is_same_v<Real, double>) {
-        return other > 0 ? std::clamp(one / other, 0.0, 1.0) : 1.0;
+        return other > 0 ? std::clamp(one / other, 0.0, 1.0) : 0.0;
     } else {
         Real share = clamp(one / other, Real(0), Real(1));
-        where(!(other > 0), share) = 1;
+        where(!(other > 0), share) = 0;
         return share;
+    }
+}
+
+/// 1 over a number that is not negative, and 0 where that is next to nothing.
+template <class Real>
+[[gnu::always_inline]] inline Real inverseOf(const Real& number)
+{
+    constexpr double least = std::numeric_limits<double>::min();
+    if constexpr (std::is_same_v<Real, double>) {
+        return number > least ? 1 / number : 0.0;
+    } else {
+        Real inverse = 1 / number;
+        where(!(number > least), inverse) = 0;
+        return inverse;
     }
 }
 
 } // namespace kernels
 
+/// The stress of the viscosity, `share` of the elastic one of a strain, or a time of that of its rate.
+template <class Shape, int phases>
+template <class Real>
+[[gnu::always_inline]] inline void
+ExplicitStep<Shape, phases>::addFemViscosity(int material, const Real& share, const Real (&strain)[4],
+                                             Real (&stress)[4]) const
+{
+    const double shear = shearModulus_[material];
+    const Real ofVolume = (pWaveModulus_[material] - 2 * shear) * (strain[0] + strain[1] + strain[2]);
+    for (int j = 0; j < 3; ++j) {
+        stress[j] += share * (ofVolume + 2 * shear * strain[j]);
+    }
+    stress[3] += share * (shear * strain[3]);
+}
+
 /// What `count` cells at rest from the f-th on put on their corners.
 template <class Shape, int phases>
 template <class Real, class Count>
-[[gnu::always_inline]] inline void ExplicitStep<Shape, phases>::addFemForces(const State& state, int material,
-                                                                             int f, Count count)
+[[gnu::always_inline]] inline void ExplicitStep<Shape, phases>::addFemForces(const State& state,
+                                                                             const FemBlock& block,
+                                                                             int material, int f, Count count)
 {
     const auto& cell = femShapes_.at(f, count);
     shapes::StressField<corners, Real> stress;
@@ -570,6 +660,14 @@ template <class Real, class Count>
             stress[1][j] = shapes::lanesOf<Real>(fem_.slopeXi[j], f, count);
             stress[2][j] = shapes::lanesOf<Real>(fem_.slopeEta[j], f, count);
         }
+    }
+    if (scene_.controls.femViscosity > 0) {
+        Real strain[4];
+        for (int j = 0; j < 4; ++j) {
+            strain[j] = shapes::lanesOf<Real>(block.strain[j], f - block.begin, count);
+        }
+        addFemViscosity<Real>(material, shapes::lanesOf<Real>(fem_.viscousTime, f, count) * (1 / block.dt),
+                              strain, stress[0]);
     }
     if (scene_.controls.isViscous()) {
         Real viscous = shapes::zero<Real>();
@@ -737,14 +835,17 @@ void ExplicitStep<Shape, phases>::returnInnerMotion()
     });
 }
 
-/// Share of the elastic stiffness in shear that the mean of a cell has shown in this step, for the slopes in
-/// the next: 1 where it is elastic. Slopes that stayed elastic where the mean yields would make the soil
-/// round a tip stiffer by several per cent.
+/// In which direction the mean of a cell has yielded in this step: the deviator of stress that it has lost to
+/// the elastic one, of unit length, times the root of the share that it has lost of the elastic one in that
+/// direction. The slopes take this from theirs in the next step; in other directions they stay elastic, as
+/// stress does along a yield surface. Slopes that stayed elastic in all of them would make the soil round a
+/// tip stiffer by several per cent; slopes that lost the same share in all of them had vibrations grow.
 template <class Shape, int phases>
 template <class Real, class Count>
-[[gnu::always_inline]] inline void
-ExplicitStep<Shape, phases>::setTangentShare(const FemBlock& block, int material, int f, Count count)
+[[gnu::always_inline]] inline void ExplicitStep<Shape, phases>::setYielding(const FemBlock& block,
+                                                                            int material, int f, Count count)
 {
+    using std::sqrt, std::max;
     Real change[4], strain[4];
     for (int j = 0; j < 4; ++j) {
         change[j] = shapes::lanesOf<Real>(fem_.stress[j], f, count) -
@@ -754,14 +855,23 @@ ExplicitStep<Shape, phases>::setTangentShare(const FemBlock& block, int material
     const double shear = shearModulus_[material];
     const Real dilatation = (strain[0] + strain[1] + strain[2]) / 3;
     const Real pressure = (change[0] + change[1] + change[2]) / 3;
-    Real elastic = 2 * shear * shear * strain[3] * strain[3];
-    Real actual = 2 * shear * strain[3] * change[3];
-    for (int j = 0; j < 3; ++j) {
-        const Real deviator = 2 * shear * (strain[j] - dilatation);
-        elastic += deviator * deviator;
-        actual += deviator * (change[j] - pressure);
+    Real lost[4];
+    Real length = shapes::zero<Real>(); // squared
+    Real along = length;                // of the elastic one, times that length
+    for (int j = 0; j < 4; ++j) {
+        const Real elastic = j < 3 ? Real(2 * shear * (strain[j] - dilatation)) : Real(shear * strain[3]);
+        const double weight = j < 3 ? 1 : 2; // rz and zr
+        lost[j] = elastic - (j < 3 ? Real(change[j] - pressure) : change[3]);
+        length += weight * lost[j] * lost[j];
+        along += weight * lost[j] * elastic;
     }
-    shapes::setLanes(fem_.tangent.data(), f, count, kernels::shareOf<Real>(actual, elastic));
+    const Real share = kernels::shareOf<Real>(length, along);
+    const Real factor = sqrt(share * kernels::inverseOf<Real>(length));
+    shapes::setLanes(fem_.yielded.data(), f, count,
+                     max(share, shapes::lanesOf<Real>(fem_.yielded, f, count)));
+    for (int j = 0; j < 4; ++j) {
+        shapes::setLanes(fem_.yielding[j].data(), f, count, Real(factor * lost[j]));
+    }
 }
 
 /// Strains `count` cells at rest of one material, from the f-th on.
@@ -806,19 +916,28 @@ template <class Count>
     shapes::VelocityGradient<corners, Real> rate;
     Shape::velocityGradient(cell, vr, vz, rate);
     if constexpr (corners == 4) {
-        const Real shear = shapes::lanesOf<Real>(fem_.tangent, f, count) * (shearModulus_[material] * dt);
+        const double shear = shearModulus_[material] * dt;
+        Real yielding[4];
+        for (int j = 0; j < 4; ++j) {
+            yielding[j] = shapes::lanesOf<Real>(fem_.yielding[j], f, count);
+        }
         const auto updateSlopes = [&](const Real(&slope)[5], const std::vector<double>& shareAtPoints,
                                       std::array<std::vector<double>, 4>& stress)
             __attribute__((always_inline))
         {
             const Real share = shear * shapes::lanesOf<Real>(shareAtPoints, f, count);
             const Real third = (slope[0] + slope[1] + slope[2]) / 3; // all points share one dilatation
+            Real change[4];
             for (int j = 0; j < 3; ++j) {
-                const Real sum = shapes::lanesOf<Real>(stress[j], f, count) + 2 * share * (slope[j] - third);
+                change[j] = 2 * share * (slope[j] - third);
+            }
+            change[3] = share * (slope[3] + slope[4]);
+            const Real lost = yielding[0] * change[0] + yielding[1] * change[1] + yielding[2] * change[2] +
+                              2 * yielding[3] * change[3];
+            for (int j = 0; j < 4; ++j) {
+                const Real sum = shapes::lanesOf<Real>(stress[j], f, count) + change[j] - lost * yielding[j];
                 shapes::setLanes(stress[j].data(), f, count, sum);
             }
-            const Real sum = shapes::lanesOf<Real>(stress[3], f, count) + share * (slope[3] + slope[4]);
-            shapes::setLanes(stress[3].data(), f, count, sum);
         };
         updateSlopes(rate[1], fem_.shareXi, fem_.slopeXi);
         updateSlopes(rate[2], fem_.shareEta, fem_.slopeEta);
@@ -888,11 +1007,12 @@ void ExplicitStep<Shape, phases>::updateFemCells(State& state, double dt)
     });
     using Real = shapes::Lanes<Shape::lanes>;
     inBlocks(femRuns_, [&](int thread, int material, int from, int to) {
-        const bool plastic = corners == 4 && scene_.materials[material].law->plastic();
+        const bool plastic = scene_.materials[material].law->plastic();
         for (int begin = from; begin < to; begin += FemBlock::size) {
             const int end = std::min(begin + FemBlock::size, to);
             FemBlock block;
             block.begin = begin;
+            block.dt = dt;
             shapes::inLanes<Shape::lanes>(
                 begin, end, [&](int f, auto count) { strainFemCells(state, dt, block, material, f, count); });
             updateBatch(material, thread, begin, end,
@@ -900,9 +1020,9 @@ void ExplicitStep<Shape, phases>::updateFemCells(State& state, double dt)
                         fem_.stress, fem_.state);
             shapes::inLanes<Shape::lanes>(begin, end, [&](int f, auto count) {
                 if (plastic) {
-                    setTangentShare<Real>(block, material, f, count);
+                    setYielding<Real>(block, material, f, count);
                 }
-                addFemForces<Real>(state, material, f, count);
+                addFemForces<Real>(state, block, material, f, count);
             });
         }
     });
@@ -948,6 +1068,10 @@ void ExplicitStep<Shape, phases>::wakeFemCells(State& state)
     }
     forCells([&](int c) {
         if (resting(c)) {
+            constexpr double least = 0.01; // share of the elastic stiffness lost
+            if (fem_.yielded[femOf_[c]] > least) {
+                yieldedAt_[c] = state.step;
+            }
             wakeFemCell(state, c);
         }
     });

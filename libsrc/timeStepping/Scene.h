@@ -44,10 +44,11 @@ struct SolutionControls
     double boxWidth = 0; ///< of a point's box over that of its cell [-]; 0: shape functions at the point
     std::string boxZone; ///< cellZone of such points; empty: all
     FemCells femCells = FemCells::none;
-    int femDistance = 6;      ///< [cells]
-    std::string femZone;      ///< cellZone that they are in; empty: anywhere
-    double femMotion = 0.2;   ///< of their points relative to the mesh until the next sort [cells], at most
-    double femStrain = 0.005; ///< of their points until the next sort [-], at most
+    int femDistance = 6;       ///< [cells]
+    std::string femZone;       ///< cellZone that they are in; empty: anywhere
+    double femMotion = 0.2;    ///< of their points relative to the mesh until the next sort [cells], at most
+    double femStrain = 0.005;  ///< of their points until the next sort [-], at most
+    double femViscosity = 0.1; ///< of the critical damping, times pi h/l (setFemViscosity)
     PressureCoupling pressureCoupling = PressureCoupling::explicitStep;
     double seepageInterval =
         0.02;                  ///< penetration of a body between two solutions of quasi-steady seepage [m]

@@ -176,6 +176,7 @@ void ExplicitStep<Shape, phases>::scaleInertia(const State& state)
 {
     femInnerOld_ = true;
     femStep_.step = 0;
+    viscousStep_ = 0;
     if (!scene_.controls.scaleSmallCells) {
         std::ranges::fill(inertiaScale_, state.massScaling);
         return;
