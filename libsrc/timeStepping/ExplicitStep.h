@@ -421,7 +421,10 @@ private:
         requires hasFours;
     [[nodiscard]] bool holdsItsPoints(const MaterialPoints& points, int c) const
         requires hasFours;
+    template <bool wake>
     void moveByFours(State& state, double dt, std::span<const int> cells, const CellMotion* motions)
+        requires hasFours;
+    [[nodiscard]] CellMotion motionSinceRest(int c) const
         requires hasFours;
     void strainByFours(const int* cells, int count, double dt, CellMotion* motions) const
         requires hasFours;

@@ -1066,15 +1066,27 @@ void ExplicitStep<Shape, phases>::wakeFemCells(State& state)
             }
         });
     }
-    forCells([&](int c) {
+    for (std::size_t f = 0; f < femCells_.size(); ++f) {
+        constexpr double least = 0.01; // share of the elastic stiffness lost
+        if (fem_.yielded[f] > least) {
+            yieldedAt_[femCells_[f].cell] = state.step;
+        }
+    }
+    const auto wake = [&](int c) {
         if (resting(c)) {
-            constexpr double least = 0.01; // share of the elastic stiffness lost
-            if (fem_.yielded[femOf_[c]] > least) {
-                yieldedAt_[c] = state.step;
-            }
             wakeFemCell(state, c);
         }
-    });
+    };
+    if constexpr (hasFours) {
+        const auto mayJoin = [this](int c) { return resting(c); };
+        forPieces(active_, mayJoin, wake, [&](std::span<const int> cells) {
+            std::array<CellMotion, cellsPerPiece> motions;
+            std::ranges::transform(cells, motions.begin(), [this](int c) { return motionSinceRest(c); });
+            moveByFours<true>(state, 1, cells, motions.data());
+        });
+    } else {
+        forCells(wake);
+    }
     updateStress(state, true);
     std::ranges::fill(femOf_, -1);
     femCells_.clear();
@@ -1102,16 +1114,10 @@ void ExplicitStep<Shape, phases>::wakeFemCell(State& state, int c)
     const int* const first = pointCells_.begin(c);
     const int* const last = pointCells_.end(c);
     // As in the sampling, mean strains are those about the points' centre.
-    double volume = 0, centreXi = 0, centreEta = 0;
+    double centreXi = 0, centreEta = 0;
     if constexpr (corners == 4) {
-        for (const int* i = first; i != last; ++i) {
-            const auto [x, y] = Shape::local(cell, points.r[*i], points.z[*i]);
-            volume += points.volume[*i];
-            centreXi += points.volume[*i] * x;
-            centreEta += points.volume[*i] * y;
-        }
-        centreXi /= volume;
-        centreEta /= volume;
+        centreXi = pointCentre_[c][0];
+        centreEta = pointCentre_[c][1];
     }
     double shapeSum = 0;
     double volumeSum = 0;

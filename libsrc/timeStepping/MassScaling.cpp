@@ -9,7 +9,7 @@ namespace caisson {
 
 namespace {
 
-constexpr double growth = 1.02;          // per interval
+constexpr double growth = 1.1;           // per interval
 constexpr double transitsOfAJump = 20.0; // of a wave through the wall, at least
 
 /// Width of the body at its tip [m].

@@ -501,7 +501,7 @@ void ExplicitStep<Shape, phases>::mapToPoints(State& state, double dt)
                 strainByFours(&cells[j], static_cast<int>(std::min<std::size_t>(4, cells.size() - j)), dt,
                               &motions[j]);
             }
-            moveByFours(state, dt, cells, motions.data());
+            moveByFours<false>(state, dt, cells, motions.data());
         });
     } else {
         forAwakeCells(mapCell);

@@ -268,8 +268,58 @@ void ExplicitStep<Shape, phases>::strainByFours(const int* cells, int count, dou
     }
 }
 
-/// mapCellToPoints of filled cells.
+/// What the points of a cell at rest catch up with (wakeFemCell), as the motion of a step of one second.
 template <class Shape, int phases>
+auto ExplicitStep<Shape, phases>::motionSinceRest(int c) const -> CellMotion
+    requires hasFours
+{
+    CellMotion result;
+    const int f = femOf_[c];
+    double strainR[corners], strainZ[corners];
+    std::array<Four, corners> motion, liquidMotion, velocity;
+    for (int k = 0; k < corners; ++k) {
+        const int j = fem_.node[f][k];
+        const FemNode& since = femNodes_[j];
+        strainR[k] = femHistory_[j].strainR;
+        strainZ[k] = femHistory_[j].strainZ;
+        motion[k] = four(since.dvr, since.dvz, since.placeR, since.placeZ);
+        velocity[k] = fourFrom(nodes_[since.node].mass);
+        if constexpr (twoPhase) {
+            liquidMotion[k] = four(since.relativeR, since.relativeZ, femHistory_[j].keep,
+                                   liquidNodes_[since.node].pressure);
+        }
+    }
+    shapes::VelocityGradient<corners> gradient;
+    Shape::velocityGradient(cells_[c], strainR, strainZ, gradient);
+    for (int i = 0; i < 3; ++i) {
+        kernels::strainOf(gradient[i], i == 0 ? fem_.dilatation[f] : 0.0, 1.0, result.strain[i],
+                          result.spin[i]);
+    }
+    const auto [xi, eta] = pointCentre_[c];
+    for (int j = 0; j < 4; ++j) {
+        result.strain[0][j] -= xi * result.strain[1][j] + eta * result.strain[2][j];
+    }
+    result.spin[0] -= xi * result.spin[1] + eta * result.spin[2];
+    result.rate = fem_.dilatation[f];
+    const auto setModes = [](double(&to)[4][4], const std::array<Four, corners>& ofCorners) {
+        const std::array<Four, 4> modes = Shape::modes(ofCorners.data());
+        for (int m = 0; m < 4; ++m) {
+            setFour(to[m][0], modes[m]);
+        }
+    };
+    setModes(result.motion, motion);
+    if constexpr (twoPhase) {
+        setModes(result.liquidMotion, liquidMotion);
+    }
+    if (femFlip_ < 1) {
+        setModes(result.velocity, velocity);
+    }
+    return result;
+}
+
+/// mapCellToPoints of filled cells or, with a step of one second, wakeFemCell of those at rest.
+template <class Shape, int phases>
+template <bool wake>
 void ExplicitStep<Shape, phases>::moveByFours(State& state, double dt, std::span<const int> cells,
                                               const CellMotion* motions)
     requires hasFours
@@ -279,15 +329,17 @@ void ExplicitStep<Shape, phases>::moveByFours(State& state, double dt, std::span
                                           strain_[3].data()};
     double* const spinOf = spin_.data();
     const std::size_t size = state.points.size();
-    const double flip = scene_.controls.flipOf(dt);
+    const double flip = wake ? femFlip_ : scene_.controls.flipOf(dt);
     std::array<double, cellsPerPiece> shifts; // of the mean pressure
     for (std::size_t j = 0; j < cells.size(); ++j) {
         const int c = cells[j];
         const CellMotion& motion = motions[j];
         const typename Shape::Cell cell = cells_[c];
         const double e = dt * motion.rate;
-        const double growth = 1 + e * (1 + 0.5 * e); // exp(e)
-        state.cellDivergence[c] = motion.rate;
+        const double growth = wake ? std::exp(e) : 1 + e * (1 + 0.5 * e); // exp(e)
+        if (!wake) {
+            state.cellDivergence[c] = motion.rate;
+        }
 
         const auto move = [&](const auto& p, const Four& x, const Four& y, const Four& z, const Four& mass,
                               const Four& volume) __attribute__((always_inline))
@@ -321,8 +373,9 @@ void ExplicitStep<Shape, phases>::moveByFours(State& state, double dt, std::span
                     move(p, xiAt(p.of(points.r)), etaAt(z), z, p.of(points.mass), p.of(points.volume));
                 });
         } else {
-            const double increment = projects() ? pressureStep_[c] : 0;
-            const double liquidStrain = dt * motion.liquidRate;
+            const double increment = !wake && projects() ? pressureStep_[c] : 0;
+            const double liquidStrain = wake ? 0 : dt * motion.liquidRate;
+            const double excess = wake ? fem_.pressure[femOf_[c]] : 0;
             Four difference = 0, volumeSum = 0;
             forFours(
                 first, last, size, [&](const auto& p) __attribute__((always_inline)) {
@@ -332,8 +385,9 @@ void ExplicitStep<Shape, phases>::moveByFours(State& state, double dt, std::span
                     const Four xy = x * y;
                     const Four mass = p.of(points.mass);
                     const Four volume = p.of(points.volume);
-                    Four pressure = p.of(points.porePressure) + increment;
-                    if (!projects()) { // storage, as in mapCellToPoints
+                    Four pressure =
+                        wake ? excess + unitWeight_ * z : Four(p.of(points.porePressure) + increment);
+                    if (!wake && !projects()) { // storage, as in mapCellToPoints
                         const Four inverseN =
                             volume /
                             (volume - mass * p.ofMaterial(liquid_, points, &LiquidProperties::grainVolume));

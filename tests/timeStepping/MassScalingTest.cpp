@@ -52,7 +52,7 @@ TEST(MassScaling, keepsInertiaBelowItsShareOfTheStressAtTheTip)
     simulation.scene.controls.massScaling = 2;
     expectNear("upper limit", adaptedMassScaling(simulation.scene, state), 2, 0);
     state.massScaling = 1.5;
-    expectNear("growth", adaptedMassScaling(simulation.scene, state), 1.53, 1e-12);
+    expectNear("growth", adaptedMassScaling(simulation.scene, state), 1.65, 1e-12);
 }
 
 TEST(MassScaling, waitsUntilABodyHasItsSpeed)

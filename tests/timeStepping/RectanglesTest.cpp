@@ -9,15 +9,15 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
-#include <utility>
+#include <tuple>
 
 namespace caisson::testing {
 namespace {
 
 /// A block of elastic soil that is sheared through its cells. `skew`: of one node, which makes the mesh one
-/// of general quadrilaterals [m]. `thin`: one cell in its middle holds a fifth of its soil, too little to be
-/// filled.
-Simulation shearedBlock(int phases, double skew, bool thin)
+/// of general quadrilaterals [m]. `femCells`: whose points rest for ten steps at most. `thin`: one cell in
+/// its middle holds a fifth of its soil, too little to be filled.
+Simulation shearedBlock(int phases, double skew, bool thin, bool femCells)
 {
     Simulation simulation;
     BackgroundMesh& mesh = simulation.state.mesh;
@@ -51,22 +51,33 @@ Simulation shearedBlock(int phases, double skew, bool thin)
     simulation.setVelocity([](double r, double z) {
         return std::array<double, 2>{3 * r * (1 - r) * (0.5 - z), 6 * z * (1 - z) * (r - 0.6)};
     });
+    if (femCells) {
+        simulation.scene.controls.femCells = SolutionControls::FemCells::automatic;
+        simulation.scene.controls.femDistance = 1;
+        simulation.scene.controls.sortInterval = 10;
+        simulation.scene.controls.femStrain = 1;
+        simulation.scene.controls.femMotion = 1;
+    }
     simulation.start();
+    EXPECT_EQ(simulation.step->cellCounts(simulation.state).fem > 0, femCells);
     return simulation;
 }
 
 TEST(Rectangles, areComputedFourAtATimeAsGeneralQuadrilateralsOneByOne)
 {
-    for (const auto& [phases, thin] :
-         {std::pair(1, false), std::pair(2, false), std::pair(1, true), std::pair(2, true)}) {
-        Simulation one = shearedBlock(phases, 1e-8, thin);
-        Simulation four = shearedBlock(phases, 0, thin);
+    for (const auto& [phases, thin, femCells] :
+         {std::tuple(1, false, false), std::tuple(2, false, false), std::tuple(1, true, false),
+          std::tuple(2, true, false), std::tuple(1, false, true), std::tuple(2, false, true)}) {
+        Simulation one = shearedBlock(phases, 1e-8, thin, femCells);
+        Simulation four = shearedBlock(phases, 0, thin, femCells);
         const double step = 0.5 * four.step->stableStep(four.state).step;
         double moved = 0;
         for (int i = 0; i < 200; ++i) {
             one.step->advance(one.state, step);
             four.step->advance(four.state, step);
         }
+        one.step->rebuild(one.state); // no point rests
+        four.step->rebuild(four.state);
         const MaterialPoints& expected = one.state.points;
         const MaterialPoints& got = four.state.points;
         std::vector<std::size_t> place(got.size());
@@ -89,10 +100,11 @@ TEST(Rectangles, areComputedFourAtATimeAsGeneralQuadrilateralsOneByOne)
             moved = std::max(moved, std::hypot(got.r[q] - got.initialR[q], got.z[q] - got.initialZ[q]));
         }
         std::printf(
-            "%d phase(s)%s: stress within %.1e of the largest, velocity %.1e (tolerance 1e-5); points "
+            "%d phase(s)%s%s: stress within %.1e of the largest, velocity %.1e (tolerance 1e-5); points "
             "moved by %.2f "
             "cells\n",
-            phases, thin ? ", a thin cell" : "", difference / largest, ofSpeed / speed, 9 * moved);
+            phases, thin ? ", a thin cell" : "", femCells ? ", FEM cells" : "", difference / largest,
+            ofSpeed / speed, 9 * moved);
         EXPECT_LT(difference / largest, 1e-5);
         EXPECT_LT(ofSpeed / speed, 1e-5);
         EXPECT_GT(9 * moved, 0.1); // some have come to other cells
