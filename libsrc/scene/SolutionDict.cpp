@@ -37,8 +37,8 @@ constexpr Keyword keywords[] = {
      "cells that points of FEM cells may move relative to the mesh until the next sort; those that would "
      "move "
      "further do not rest"},
-    {"femStrain", "-", "0.005", "(0, 1]", "strain that they may have until the next sort, likewise"},
-    {"femViscosity", "-", "0.1", "[0, 1]",
+    {"femStrain", "-", "0.01", "(0, 1]", "strain that they may have until the next sort, likewise"},
+    {"femViscosity", "-", "0.2", "[0, 1]",
      "viscosity of FEM cells that yield, lest vibrations grow: pi times this h/l of the critical damping for "
      "waves of length l over cells of size h"},
     {"velocityRemap", "word", "loose", "none loose all",

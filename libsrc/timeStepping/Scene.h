@@ -47,8 +47,8 @@ struct SolutionControls
     int femDistance = 6;       ///< [cells]
     std::string femZone;       ///< cellZone that they are in; empty: anywhere
     double femMotion = 0.2;    ///< of their points relative to the mesh until the next sort [cells], at most
-    double femStrain = 0.005;  ///< of their points until the next sort [-], at most
-    double femViscosity = 0.1; ///< of the critical damping, times pi h/l (setFemViscosity)
+    double femStrain = 0.01;   ///< of their points until the next sort [-], at most
+    double femViscosity = 0.2; ///< of the critical damping, times pi h/l (setFemViscosity)
     PressureCoupling pressureCoupling = PressureCoupling::explicitStep;
     double seepageInterval =
         0.02;                  ///< penetration of a body between two solutions of quasi-steady seepage [m]
