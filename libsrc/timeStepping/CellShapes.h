@@ -303,10 +303,11 @@ struct Rectangle
         return r >= cell.r0 && r <= cell.r0 + cell.dr && z >= cell.z0 && z <= cell.z0 + cell.dz;
     }
 
-    /// Local coordinates in [-1, 1].
-    [[gnu::always_inline]] static std::array<double, 2> local(const Cell& cell, double r, double z)
+    /// Local coordinates in [-1, 1] of a point, or of four.
+    template <class Real>
+    [[gnu::always_inline]] static std::array<Real, 2> local(const Cell& cell, const Real& r, const Real& z)
     {
-        return {2 * (r - cell.r0) * cell.invDr - 1, 2 * (z - cell.z0) * cell.invDz - 1};
+        return {(r - cell.r0) * (2 * cell.invDr) - 1, (z - cell.z0) * (2 * cell.invDz) - 1};
     }
 
     /// @returns the local coordinates

@@ -414,11 +414,16 @@ void ExplicitStep<Shape, phases>::mapToPoints(State& state, double dt)
     if (nodalAverage && projects()) { // as keepsRate
         averageDilatation();
     }
+    const bool onlyLoose = !remapAll && !nodalAverage && boxCell_.empty(); // cells have to be seen to here
     forAwakeCells([&](int c) {
         if (remapSome) {
-            byLoose_[c] = 0;
+            unsigned char loose = 0;
             for (int k = 0; k < corners; ++k) {
-                byLoose_[c] |= looseNode_[cellNodes_[c * corners + k]];
+                loose |= looseNode_[cellNodes_[c * corners + k]];
+            }
+            byLoose_[c] = loose;
+            if (onlyLoose && loose == 0) {
+                return;
             }
         }
         if (keepsRate(c) && !resting(c)) {

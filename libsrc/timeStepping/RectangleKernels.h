@@ -23,6 +23,16 @@ namespace kernels {
     corners[3] = corners[3] + N[3][0] * a + N[3][1] * b + N[3][2] * c + N[3][3] * d;
 }
 
+/// Modes of four quantities from what they are at the corners.
+template <class Shape>
+[[gnu::always_inline]] inline void setModes(double (&modes)[4][4], const std::array<Four, 4>& ofCorners)
+{
+    const std::array<Four, 4> result = Shape::modes(ofCorners.data());
+    for (int m = 0; m < 4; ++m) {
+        setFour(modes[m][0], result[m]);
+    }
+}
+
 /// A quantity at four points, one of four whose modes over their cell are given.
 [[gnu::always_inline]] inline Four fieldAt(const double (&modes)[4][4], int quantity, const Four& xi,
                                            const Four& eta, const Four& xiEta)
@@ -105,8 +115,7 @@ void ExplicitStep<Shape, phases>::sumByFours(const State& state, std::span<const
             pointCells_.begin(c), pointCells_.end(c),
             state.points.size(), [&](const auto& p) __attribute__((always_inline)) {
                 const Four z = p.of(points.z);
-                const Four x = (p.of(points.r) - cell.r0) * (2 * cell.invDr) - 1;
-                const Four y = (z - cell.z0) * (2 * cell.invDz) - 1;
+                const auto [x, y] = Shape::local(cell, p.of(points.r), z);
                 const std::array<Four, corners> N = Shape::cornerSums(std::array<Four, 4>{1, x, y, x * y});
                 const Four whole = p.of(points.volume);
                 const Four v = p.only(whole);
@@ -252,11 +261,7 @@ void ExplicitStep<Shape, phases>::strainByFours(const int* cells, int count, dou
         result.liquidRate = liquidRate[l];
         const int* const nodes = &cellNodes_[cells[l] * corners];
         const auto setModes = [&](double(&to)[4][4], const auto& of) {
-            const std::array<Four, 4> ofCorners{of(nodes[0]), of(nodes[1]), of(nodes[2]), of(nodes[3])};
-            const std::array<Four, 4> modes = Shape::modes(ofCorners.data());
-            for (int m = 0; m < 4; ++m) {
-                setFour(to[m][0], modes[m]);
-            }
+            kernels::setModes<Shape>(to, {of(nodes[0]), of(nodes[1]), of(nodes[2]), of(nodes[3])});
         };
         setModes(result.motion, [&](int i) { return nodes_[i].motion(); });
         if constexpr (twoPhase) {
@@ -301,18 +306,12 @@ auto ExplicitStep<Shape, phases>::motionSinceRest(int c) const -> CellMotion
     }
     result.spin[0] -= xi * result.spin[1] + eta * result.spin[2];
     result.rate = fem_.dilatation[f];
-    const auto setModes = [](double(&to)[4][4], const std::array<Four, corners>& ofCorners) {
-        const std::array<Four, 4> modes = Shape::modes(ofCorners.data());
-        for (int m = 0; m < 4; ++m) {
-            setFour(to[m][0], modes[m]);
-        }
-    };
-    setModes(result.motion, motion);
+    kernels::setModes<Shape>(result.motion, motion);
     if constexpr (twoPhase) {
-        setModes(result.liquidMotion, liquidMotion);
+        kernels::setModes<Shape>(result.liquidMotion, liquidMotion);
     }
     if (femFlip_ < 1) {
-        setModes(result.velocity, velocity);
+        kernels::setModes<Shape>(result.velocity, velocity);
     }
     return result;
 }
@@ -362,15 +361,14 @@ void ExplicitStep<Shape, phases>::moveByFours(State& state, double dt, std::span
             p.set(points.z, z + dt * kernels::fieldAt(motion.motion, 3, x, y, xy));
             return std::array{newR, newZ};
         };
-        const auto xiAt = [&](const Four& r) { return (r - cell.r0) * (2 * cell.invDr) - 1; };
-        const auto etaAt = [&](const Four& z) { return (z - cell.z0) * (2 * cell.invDz) - 1; };
         const int* const first = pointCells_.begin(c);
         const int* const last = pointCells_.end(c);
         if constexpr (!twoPhase) {
             forFours(
                 first, last, size, [&](const auto& p) __attribute__((always_inline)) {
                     const Four z = p.of(points.z);
-                    move(p, xiAt(p.of(points.r)), etaAt(z), z, p.of(points.mass), p.of(points.volume));
+                    const auto [x, y] = Shape::local(cell, p.of(points.r), z);
+                    move(p, x, y, z, p.of(points.mass), p.of(points.volume));
                 });
         } else {
             const double increment = !wake && projects() ? pressureStep_[c] : 0;
@@ -380,8 +378,7 @@ void ExplicitStep<Shape, phases>::moveByFours(State& state, double dt, std::span
             forFours(
                 first, last, size, [&](const auto& p) __attribute__((always_inline)) {
                     const Four z = p.of(points.z);
-                    const Four x = xiAt(p.of(points.r));
-                    const Four y = etaAt(z);
+                    const auto [x, y] = Shape::local(cell, p.of(points.r), z);
                     const Four xy = x * y;
                     const Four mass = p.of(points.mass);
                     const Four volume = p.of(points.volume);
