@@ -278,11 +278,12 @@ private:
         std::array<std::vector<double>, 4> yielding; ///< see setYielding
         std::vector<double>
             yielded; ///< share of the elastic stiffness in shear lost in that direction, at most
-        std::vector<double> dilatation;         ///< since the points rest
-        std::vector<double> pressure;           ///< of the liquid in excess, mean [Pa]
-        std::vector<double> porosity;           ///< mean
-        std::vector<double> viscousTime;        ///< viscosity over elastic stiffness [s]
-        std::vector<std::vector<double>> state; ///< variables of the laws
+        std::vector<double> dilatation;              ///< since the points rest
+        std::vector<double> pressure;                ///< of the liquid in excess, mean [Pa]
+        std::vector<double> porosity;                ///< mean
+        std::array<std::vector<double>, 4> meanRate; ///< of strain, over the last steps [1/s]
+        std::vector<double> viscousTime;             ///< viscosity over elastic stiffness [s]
+        std::vector<std::vector<double>> state;      ///< variables of the laws
 
         void resize(std::size_t size);
     };
@@ -550,7 +551,7 @@ private:
     void sampleFemCell(int c);
     void addViscousForces(int c);
     template <class Real>
-    void addFemViscosity(int material, const Real& share, const Real (&strain)[4], Real (&stress)[4]) const;
+    void addFemViscosity(int material, const Real& time, const Real (&rate)[4], Real (&stress)[4]) const;
     void sumInnerNodes();
     void mapFemCellsToNodes();
     template <class Real, class Count>
@@ -683,9 +684,10 @@ private:
     std::array<std::vector<double>, 4> strain_; ///< increments of the step, per point
     std::vector<double> spin_;
     // Cells whose points rest; empty where none may.
-    std::vector<int> femOf_;           ///< per cell: index of its FemCell, or -1
-    std::vector<unsigned char> rests_; ///< per cell: is one
-    std::vector<long> yieldedAt_;      ///< per cell: step when it was one last that had yielded
+    std::vector<int> femOf_;                      ///< per cell: index of its FemCell, or -1
+    std::vector<unsigned char> rests_;            ///< per cell: is one
+    std::vector<std::array<double, 4>> meanRate_; ///< per cell: FemFields::meanRate when it was one last
+    std::vector<long> yieldedAt_;                 ///< per cell: step when it was one last that had yielded
     std::vector<FemCell> femCells_;
     std::vector<FemLiquidCell> femLiquidCells_;
     std::vector<int> femEdge_;                    ///< FEM cells with a node that is no inner one

@@ -263,6 +263,7 @@ void ExplicitStep<Shape, phases>::rebuild(State& state)
         relocate(state, false);
     }
     rests_.clear();
+    meanRate_.assign(cells_.size(), {});
     yieldedAt_.assign(cells_.size(), std::numeric_limits<int>::min());
     pressureSolver_.forget();
     pressureStep_.setZero();

@@ -89,6 +89,9 @@ void ExplicitStep<Shape, phases>::FemFields::resize(std::size_t size)
         component.assign(size, 0);
     }
     yielded.assign(size, 0);
+    for (std::vector<double>& component : meanRate) {
+        component.resize(size);
+    }
     dilatation.assign(size, 0);
     for (std::vector<double>& variable : state) {
         variable.resize(size);
@@ -161,6 +164,9 @@ void ExplicitStep<Shape, phases>::chooseFemCells(const State& state)
     threads_.share(static_cast<int>(chosen.size()), pointsPerPiece, [&](int, int begin, int end) {
         for (int f = begin; f < end; ++f) {
             femShapes_.set(f, cells_[chosen[f]]);
+            for (int j = 0; j < 4; ++j) {
+                fem_.meanRate[j][f] = meanRate_[chosen[f]][j];
+            }
             for (std::size_t k = 0; k < fem_.state.size(); ++k) {
                 double sum = 0;
                 for (const int* p = pointCells_.begin(chosen[f]); p != pointCells_.end(chosen[f]); ++p) {
@@ -179,8 +185,9 @@ void ExplicitStep<Shape, phases>::chooseFemCells(const State& state)
 /// see of a velocity in every step, which takes the shortest waves away; those at rest would keep them. So
 /// the soil of cells that have yielded not long ago has a viscosity, its elastic stiffness times a share b
 /// of the passage h/c_s of its own wave. Of a wave of length l over cells of size h it is pi b h/l of the
-/// critical damping. No more than the step leaves: with waves of the speed c, and c_d that of the soil
-/// without its liquid, the step is stable to
+/// critical damping. It acts on what rates of strain are beside their mean of late, for the flow must not
+/// feel it, however much the inertia is scaled. No more than the step leaves: with waves of the speed c, and
+/// c_d that of the soil without its liquid, the step is stable to
 ///
 ///     (c dt/h)^2 + 2 b c_d^2/(c_s c) c dt/h = 1.
 template <class Shape, int phases>
@@ -368,9 +375,11 @@ void ExplicitStep<Shape, phases>::addViscousForces(int c)
     }
     shapes::VelocityGradient<corners> rate;
     Shape::velocityGradient(cells_[c], vr, vz, rate);
-    const double mean[4] = {rate[0][0], rate[0][1], rate[0][2], rate[0][3] + rate[0][4]};
+    const std::array<double, 4>& mean = meanRate_[c];
+    const double beside[4] = {rate[0][0] - mean[0], rate[0][1] - mean[1], rate[0][2] - mean[2],
+                              rate[0][3] + rate[0][4] - mean[3]};
     shapes::StressField<corners> stress{};
-    addFemViscosity<double>(femCells_[femOf_[c]].material, fem_.viscousTime[femOf_[c]], mean, stress[0]);
+    addFemViscosity<double>(femCells_[femOf_[c]].material, fem_.viscousTime[femOf_[c]], beside, stress[0]);
     double forceR[corners] = {}, forceZ[corners] = {};
     Shape::addForces(cells_[c], stress, forceR, forceZ);
     for (int k = 0; k < corners; ++k) {
@@ -630,19 +639,19 @@ template <class Real>
 
 } // namespace kernels
 
-/// The stress of the viscosity, `share` of the elastic one of a strain, or a time of that of its rate.
+/// The stress of the viscosity: a time of the elastic one of a rate of strain.
 template <class Shape, int phases>
 template <class Real>
 [[gnu::always_inline]] inline void
-ExplicitStep<Shape, phases>::addFemViscosity(int material, const Real& share, const Real (&strain)[4],
+ExplicitStep<Shape, phases>::addFemViscosity(int material, const Real& time, const Real (&rate)[4],
                                              Real (&stress)[4]) const
 {
     const double shear = shearModulus_[material];
-    const Real ofVolume = (pWaveModulus_[material] - 2 * shear) * (strain[0] + strain[1] + strain[2]);
+    const Real ofVolume = (pWaveModulus_[material] - 2 * shear) * (rate[0] + rate[1] + rate[2]);
     for (int j = 0; j < 3; ++j) {
-        stress[j] += share * (ofVolume + 2 * shear * strain[j]);
+        stress[j] += time * (ofVolume + 2 * shear * rate[j]);
     }
-    stress[3] += share * (shear * strain[3]);
+    stress[3] += time * (shear * rate[3]);
 }
 
 /// What `count` cells at rest from the f-th on put on their corners.
@@ -662,12 +671,16 @@ template <class Real, class Count>
         }
     }
     if (scene_.controls.femViscosity > 0) {
-        Real strain[4];
+        constexpr double share = 0.02; // of the rate now in the mean: that of some fifty steps
+        const double perStep = 1 / block.dt;
+        Real rate[4];
         for (int j = 0; j < 4; ++j) {
-            strain[j] = shapes::lanesOf<Real>(block.strain[j], f - block.begin, count);
+            rate[j] = perStep * shapes::lanesOf<Real>(block.strain[j], f - block.begin, count);
+            const Real mean = shapes::lanesOf<Real>(fem_.meanRate[j], f, count);
+            rate[j] -= mean;
+            shapes::setLanes(fem_.meanRate[j].data(), f, count, Real(mean + share * rate[j]));
         }
-        addFemViscosity<Real>(material, shapes::lanesOf<Real>(fem_.viscousTime, f, count) * (1 / block.dt),
-                              strain, stress[0]);
+        addFemViscosity<Real>(material, shapes::lanesOf<Real>(fem_.viscousTime, f, count), rate, stress[0]);
     }
     if (scene_.controls.isViscous()) {
         Real viscous = shapes::zero<Real>();
@@ -1068,8 +1081,12 @@ void ExplicitStep<Shape, phases>::wakeFemCells(State& state)
     }
     for (std::size_t f = 0; f < femCells_.size(); ++f) {
         constexpr double least = 0.01; // share of the elastic stiffness lost
+        const int c = femCells_[f].cell;
         if (fem_.yielded[f] > least) {
-            yieldedAt_[femCells_[f].cell] = state.step;
+            yieldedAt_[c] = state.step;
+        }
+        for (int j = 0; j < 4; ++j) {
+            meanRate_[c][j] = fem_.meanRate[j][f];
         }
     }
     const auto wake = [&](int c) {
