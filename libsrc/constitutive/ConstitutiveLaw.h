@@ -28,7 +28,8 @@ class ConstitutiveLaw
 {
 public:
     virtual ~ConstitutiveLaw() = default;
-    virtual void update(const StressBatch& batch) const = 0;
+    /// @returns whether soil of the batch yields; false where all of it stays elastic
+    virtual bool update(const StressBatch& batch) const = 0;
     /// Names of the variables kept per point (also the names of the output fields), e.g.
     /// "plasticShearStrain".
     [[nodiscard]] virtual const std::vector<std::string>& stateNames() const = 0;

@@ -8,7 +8,7 @@ namespace caisson {
 
 LinearElastic::LinearElastic(const IsotropicElasticity& elasticity) : elasticity_(elasticity) {}
 
-void LinearElastic::update(const StressBatch& batch) const
+bool LinearElastic::update(const StressBatch& batch) const
 {
     const double lambda = elasticity_.lambda();
     const double twoShear = 2 * elasticity_.shearModulus();
@@ -31,6 +31,7 @@ void LinearElastic::update(const StressBatch& batch) const
         tt[i] += volumetric + twoShear * strainTt[i];
         rz[i] += turn.shear + 0.5 * twoShear * strainRz[i];
     }
+    return false;
 }
 
 const std::vector<std::string>& LinearElastic::stateNames() const

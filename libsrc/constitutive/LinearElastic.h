@@ -13,7 +13,7 @@ class LinearElastic final : public ConstitutiveLaw
 {
 public:
     explicit LinearElastic(const IsotropicElasticity& elasticity);
-    void update(const StressBatch& batch) const override;
+    bool update(const StressBatch& batch) const override;
     [[nodiscard]] const std::vector<std::string>& stateNames() const override;
     [[nodiscard]] std::vector<double> initialState() const override { return {}; }
     [[nodiscard]] double pWaveModulus() const override { return elasticity_.pWaveModulus(); }

@@ -24,13 +24,15 @@ MohrCoulomb::MohrCoulomb(const IsotropicElasticity& elasticity, const MohrCoulom
             "contractant flow at this Poisson's ratio leaves the return to the yield surface undefined");
 }
 
-void MohrCoulomb::update(const StressBatch& batch) const
+bool MohrCoulomb::update(const StressBatch& batch) const
 {
+    bool yields = false;
     for (int begin = 0; begin < batch.size; begin += chunkSize)
-        updateChunk(batch, begin, std::min(chunkSize, batch.size - begin));
+        yields = updateChunk(batch, begin, std::min(chunkSize, batch.size - begin)) || yields;
+    return yields;
 }
 
-void MohrCoulomb::updateChunk(const StressBatch& batch, const int begin, const int size) const
+bool MohrCoulomb::updateChunk(const StressBatch& batch, const int begin, const int size) const
 {
     const MohrCoulombSurface surface = surface_; // a copy cannot alias the arrays
     const double lambda = elasticity_.lambda();
@@ -72,17 +74,12 @@ void MohrCoulomb::updateChunk(const StressBatch& batch, const int begin, const i
         excess[i] = surface.excess(largest, smallest);
     }
 
-    std::int64_t anyYields = 0;
-    for (int i = 0; i < size; ++i)
-        anyYields |= excess[i] > 0 ? std::int64_t{1} : std::int64_t{0};
-    if (anyYields == 0)
-        return;
-
     // 2/3 of the deviator's square is 2/9 of the sum of the squared differences.
     const double compliance = std::sqrt(2.0) / (3 * twoShear);
-    for (int i = 0; i < size; ++i) {
-        if (!(excess[i] > 0))
-            continue;
+    const bool gapClosing = strength_.gapClosing;
+    const auto returnPoint = [&](int i) __attribute__((always_inline))
+    {
+        const bool yields = excess[i] > 0;
         const double mean = 0.5 * (rr[i] + zz[i]);
         const double major = mean + radius[i];
         const double minor = mean - radius[i];
@@ -101,23 +98,50 @@ void MohrCoulomb::updateChunk(const StressBatch& batch, const int begin, const i
         const double taken12 = taken[0] - taken[1];
         const double taken23 = taken[1] - taken[2];
         const double taken13 = taken[0] - taken[2];
-        plasticShearStrain[i] +=
+        const double sheared =
             compliance * std::sqrt(taken12 * taken12 + taken23 * taken23 + taken13 * taken13);
-        opening[i] = strength_.gapClosing && result.region == ReturnRegion::apex
-                         ? std::max(0.0, (taken[0] + taken[1] + taken[2]) / (3 * bulk))
-                         : 0.0;
+        const double opened = (taken[0] + taken[1] + taken[2]) / (3 * bulk);
+        plasticShearStrain[i] += yields ? sheared : 0;
+        opening[i] = yields & gapClosing & (result.region == ReturnRegion::apex) & (opened > 0) ? opened : 0;
 
         // The return keeps the order of the stresses and the axes of the in-plane pair.
         const double newMajor = hoopIsLargest ? result.stress[1] : result.stress[0];
         const double newMinor = hoopIsSmallest ? result.stress[1] : result.stress[2];
+        const double newHoop = hoopIsLargest    ? result.stress[0]
+                               : hoopIsSmallest ? result.stress[2]
+                                                : result.stress[1];
         const double newMean = 0.5 * (newMajor + newMinor);
         const double shrink = radius[i] > 0 ? 0.5 * (newMajor - newMinor) / radius[i] : 0;
         const double halfDifference = 0.5 * (rr[i] - zz[i]) * shrink;
-        rr[i] = newMean + halfDifference;
-        zz[i] = newMean - halfDifference;
-        tt[i] = hoopIsLargest ? result.stress[0] : hoopIsSmallest ? result.stress[2] : result.stress[1];
-        rz[i] *= shrink;
+        rr[i] = yields ? newMean + halfDifference : rr[i];
+        zz[i] = yields ? newMean - halfDifference : zz[i];
+        tt[i] = yields ? newHoop : hoop;
+        rz[i] = yields ? rz[i] * shrink : rz[i];
+    };
+    const auto anyYields = [&excess](int from, int to) {
+        std::int64_t any = 0;
+        for (int i = from; i < to; ++i)
+            any |= excess[i] > 0 ? std::int64_t{1} : std::int64_t{0};
+        return any != 0;
+    };
+    bool yields = false;
+    constexpr int group = 8; // computed together where one of them yields
+    const int whole = size / group * group;
+    for (int from = 0; from < whole; from += group) {
+        if (anyYields(from, from + group)) {
+            yields = true;
+            CAISSON_INDEPENDENT_ITERATIONS
+            for (int i = from; i < from + group; ++i)
+                returnPoint(i);
+        }
     }
+    for (int i = whole; i < size; ++i) {
+        if (excess[i] > 0) {
+            yields = true;
+            returnPoint(i);
+        }
+    }
+    return yields;
 }
 
 const std::vector<std::string>& MohrCoulomb::stateNames() const

@@ -21,7 +21,7 @@ public:
     /// @throws std::invalid_argument where the flow rule has no unique return (MohrCoulombSurface::wellPosed)
     MohrCoulomb(const IsotropicElasticity& elasticity, const MohrCoulombStrength& strength,
                 std::string name = "mohrCoulomb");
-    void update(const StressBatch& batch) const override;
+    bool update(const StressBatch& batch) const override;
     [[nodiscard]] const std::vector<std::string>& stateNames() const override;
     [[nodiscard]] std::vector<double> initialState() const override { return {0, 0}; }
     [[nodiscard]] double pWaveModulus() const override { return elasticity_.pWaveModulus(); }
@@ -31,7 +31,7 @@ public:
 
 private:
     struct Point;
-    void updateChunk(const StressBatch& batch, int begin, int size) const;
+    bool updateChunk(const StressBatch& batch, int begin, int size) const;
 
     IsotropicElasticity elasticity_;
     MohrCoulombStrength strength_;

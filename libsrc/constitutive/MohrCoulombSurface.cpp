@@ -11,6 +11,7 @@ MohrCoulombSurface::MohrCoulombSurface(const IsotropicElasticity& elasticity,
     const double sinPsi = std::sin(strength.dilatancyAngle);
     slope1_ = 1 + sinPhi;
     slope3_ = 1 - sinPhi;
+    inverseSlope3_ = 1 / slope3_;
     strength_ = 2 * strength.cohesion * std::cos(strength.frictionAngle);
     slopeRatio_ = slope3_ / slope1_;
     uniaxialTension_ = strength_ / slope1_;
@@ -25,6 +26,8 @@ MohrCoulombSurface::MohrCoulombSurface(const IsotropicElasticity& elasticity,
     faceCompliance_ = 1 / face_;
     edge12_ = slope1_ * flowMiddle_ - slope3_ * flowMinor_;
     edge23_ = slope1_ * flowMajor_ - slope3_ * flowMiddle_;
+    compliance12_ = 1 / (face_ * face_ - edge12_ * edge12_);
+    compliance23_ = 1 / (face_ * face_ - edge23_ * edge23_);
 }
 
 bool MohrCoulombSurface::wellPosed() const { return face_ > std::abs(edge12_) && face_ > std::abs(edge23_); }

@@ -4,6 +4,7 @@
 
 #include <array>
 #include <cmath>
+#include <cstdint>
 
 namespace caisson {
 
@@ -17,8 +18,9 @@ struct MohrCoulombStrength
     bool gapClosing = false;
 };
 
-/// Part of the yield surface that a stress was returned to; stresses in the order s1 >= s2 >= s3.
-enum class ReturnRegion { face, edgeS1S2, edgeS2S3, apex };
+/// Part of the yield surface that a stress was returned to; stresses in the order s1 >= s2 >= s3. As wide as
+/// a stress, for loops over points that the compiler computes several at a time.
+enum class ReturnRegion : std::int64_t { face, edgeS1S2, edgeS2S3, apex };
 
 /// Non-associated Mohr-Coulomb plasticity in principal stresses, tension positive.
 ///
@@ -66,16 +68,18 @@ private:
     [[nodiscard]] double majorOnFace(const double s3) const { return slopeRatio_ * s3 + uniaxialTension_; }
 
     double slope1_, slope3_;              // gradient of the yield function: (slope1, 0, -slope3)
-    double strength_;                     // 2 c cos(phi)
+    double inverseSlope3_, strength_;     // 1/slope3, 2 c cos(phi)
     double slopeRatio_, uniaxialTension_; // slope3/slope1, strength/slope1
     double apex_;
     double flowMajor_, flowMiddle_, flowMinor_; // stress taken off by a unit multiplier of the face: D b
     double face_, faceCompliance_;              // a13 . D b13 and its inverse
-    double edge12_;                             // a13 . D b23
-    double edge23_;                             // a13 . D b12
+    double edge12_, edge23_;                    // a13 . D b23, a13 . D b12
+    double compliance12_, compliance23_;        // 1 over the determinants of the edges
 };
 
-inline MohrCoulombSurface::Return MohrCoulombSurface::returned(const Principal& trial) const
+/// Without branches: all regions are computed, and one is chosen.
+[[gnu::always_inline]] inline MohrCoulombSurface::Return
+MohrCoulombSurface::returned(const Principal& trial) const
 {
     // The last stress of each region follows from the others by f = 0, which then holds to rounding of the
     // result however far the trial stress was.
@@ -84,32 +88,47 @@ inline MohrCoulombSurface::Return MohrCoulombSurface::returned(const Principal& 
     const double s2 = trial[1] - multiplier * flowMiddle_;
     const double s3 = trial[2] - multiplier * flowMinor_;
     const double s1 = majorOnFace(s3);
-    if (s1 >= s2 && s2 >= s3)
-        return {{s1, s2, s3}, ReturnRegion::face, {multiplier, 0}};
+    const bool face = (s1 >= s2) & (s2 >= s3);
 
-    if (s1 < s2) {
-        const double f23 = yield(trial[1], trial[2]);
-        const double determinant = face_ * face_ - edge12_ * edge12_;
-        const double first = (face_ * f13 - edge12_ * f23) / determinant;
-        const double second = (face_ * f23 - edge12_ * f13) / determinant;
-        const double minor = trial[2] - (first + second) * flowMinor_;
-        if (minor <= apex_) {
-            const double major = majorOnFace(minor);
-            return {{major, major, minor}, ReturnRegion::edgeS1S2, {first, second}};
-        }
-    }
-    if (s2 < s3) {
-        const double f12 = yield(trial[0], trial[1]);
-        const double determinant = face_ * face_ - edge23_ * edge23_;
-        const double first = (face_ * f13 - edge23_ * f12) / determinant;
-        const double second = (face_ * f12 - edge23_ * f13) / determinant;
-        const double major = trial[0] - (first + second) * flowMajor_;
-        if (major <= apex_) {
-            const double minor = (slope1_ * major - strength_) / slope3_;
-            return {{major, minor, minor}, ReturnRegion::edgeS2S3, {first, second}};
-        }
-    }
-    return {{apex_, apex_, apex_}, ReturnRegion::apex, {0, 0}};
+    const double f23 = yield(trial[1], trial[2]);
+    const double first12 = (face_ * f13 - edge12_ * f23) * compliance12_;
+    const double second12 = (face_ * f23 - edge12_ * f13) * compliance12_;
+    const double minor12 = trial[2] - (first12 + second12) * flowMinor_;
+    const double major12 = majorOnFace(minor12);
+    const bool edge12 = !face & (s1 < s2) & (minor12 <= apex_);
+
+    const double f12 = yield(trial[0], trial[1]);
+    const double first23 = (face_ * f13 - edge23_ * f12) * compliance23_;
+    const double second23 = (face_ * f12 - edge23_ * f13) * compliance23_;
+    const double major23 = trial[0] - (first23 + second23) * flowMajor_;
+    const double minor23 = (slope1_ * major23 - strength_) * inverseSlope3_;
+    const bool edge23 = !face & !edge12 & (s2 < s3) & (major23 <= apex_);
+
+    Return result;
+    result.stress = {face     ? s1
+                     : edge12 ? major12
+                     : edge23 ? major23
+                              : apex_,
+                     face     ? s2
+                     : edge12 ? major12
+                     : edge23 ? minor23
+                              : apex_,
+                     face     ? s3
+                     : edge12 ? minor12
+                     : edge23 ? minor23
+                              : apex_};
+    result.region = face     ? ReturnRegion::face
+                    : edge12 ? ReturnRegion::edgeS1S2
+                    : edge23 ? ReturnRegion::edgeS2S3
+                             : ReturnRegion::apex;
+    result.multiplier = {face     ? multiplier
+                         : edge12 ? first12
+                         : edge23 ? first23
+                                  : 0,
+                         edge12   ? second12
+                         : edge23 ? second23
+                                  : 0};
+    return result;
 }
 
 } // namespace caisson

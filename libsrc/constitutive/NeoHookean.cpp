@@ -7,7 +7,7 @@ namespace caisson {
 
 NeoHookean::NeoHookean(const IsotropicElasticity& elasticity) : elasticity_(elasticity) {}
 
-void NeoHookean::update(const StressBatch& batch) const
+bool NeoHookean::update(const StressBatch& batch) const
 {
     const double lambda = elasticity_.lambda();
     const double mu = elasticity_.shearModulus();
@@ -42,6 +42,7 @@ void NeoHookean::update(const StressBatch& batch) const
         batch.stress[2][i] = scale * (volumetric + mu * tt * tt);
         batch.stress[3][i] = scale * mu * (rr * zr + rz * zz);
     }
+    return false;
 }
 
 const std::vector<std::string>& NeoHookean::stateNames() const

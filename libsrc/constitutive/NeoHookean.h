@@ -15,7 +15,7 @@ class NeoHookean final : public ConstitutiveLaw
 {
 public:
     explicit NeoHookean(const IsotropicElasticity& elasticity);
-    void update(const StressBatch& batch) const override;
+    bool update(const StressBatch& batch) const override;
     [[nodiscard]] const std::vector<std::string>& stateNames() const override; ///< F_rr F_rz F_zr F_zz F_tt
     [[nodiscard]] std::vector<double> initialState() const override { return {1, 0, 0, 1, 1}; }
     /// Of the undeformed state; a stretch s raises it towards lambda + 2 mu s^2.

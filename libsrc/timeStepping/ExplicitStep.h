@@ -276,6 +276,7 @@ private:
         std::vector<double> shareXi,
             shareEta; ///< of the slopes at the points that a cell has (kernels::Spread)
         std::array<std::vector<double>, 4> yielding; ///< see setYielding
+        std::vector<unsigned char> yields; ///< per first cell of a block: `yielding` is not zero throughout
         std::vector<double>
             yielded; ///< share of the elastic stiffness in shear lost in that direction, at most
         std::vector<double> dilatation;              ///< since the points rest
@@ -288,12 +289,21 @@ private:
         void resize(std::size_t size);
     };
 
+    /// Those of one material that have a viscosity, or of one that have none.
+    struct FemRun
+    {
+        int material;
+        bool viscous;
+        int begin, end;
+    };
+
     /// Some of them, while they are strained.
     struct FemBlock
     {
         static constexpr int size = 64;
         int begin; ///< among the cells at rest
         double dt;
+        bool viscous;
         alignas(64) double strain[4][size];
         alignas(64) double spin[size];
         alignas(64) double stressBefore[4][size]; ///< mean, before the step [Pa]
@@ -530,12 +540,12 @@ private:
     void addRemappedMomentum(const State& state, int c);
     void remapMomentum(const State& state, int c);
     [[nodiscard]] std::array<double, 2> affineVelocity(const State& state, int p, int corner) const;
-    void updateBatch(int material, int thread, int begin, int end, const std::array<const double*, 4>& strain,
+    bool updateBatch(int material, int thread, int begin, int end, const std::array<const double*, 4>& strain,
                      const double* spin, std::array<std::vector<double>, 4>& stress,
                      std::vector<std::vector<double>>& variables);
     void updateStress(State& state, bool resting);
-    template <class Work>
-    void inBlocks(std::span<const PointCells::Run> runs, const Work& work) const;
+    template <class Run, class Work>
+    void inBlocks(std::span<const Run> runs, const Work& work) const;
     [[nodiscard]] bool resting(int c) const { return !femOf_.empty() && femOf_[c] >= 0; }
     [[nodiscard]] double mayRest(const State& state, int c, double step) const;
     [[nodiscard]] int chooseRest(const MaterialPoints& points, const std::vector<double>& mayRest) const;
@@ -546,6 +556,7 @@ private:
         return gravityShare_[material] / (twoPhase ? solidShare_[material] : 1.0);
     }
     void wakeBesideBodies(const MaterialPoints& points);
+    [[nodiscard]] bool mayBeViscous(const State& state, int c) const;
     void setFemViscosity(const State& state, double dt);
     void numberFemNodes();
     void sampleFemCell(int c);
@@ -570,6 +581,7 @@ private:
     void accumulateFemNodes(double dt);
     void returnInnerMotion();
     [[nodiscard]] StableStep femStep(const State& state) const;
+    void keepMeanRates(const State& state);
     void wakeFemCells(State& state);
     void wakeFemCell(State& state, int c);
     void moveBodiesAndMesh(State& state, double dt);
@@ -706,7 +718,7 @@ private:
     std::vector<unsigned char> boundaryNode_; ///< per node: on the boundary of the mesh
     WorkList outerNodes_;                     ///< active nodes that are no inner ones
     mutable StableStep femStep_{};            ///< that FEM cells allow; 0 where not known
-    std::vector<PointCells::Run> femRuns_;    ///< FEM cells of one material
+    std::vector<FemRun> femRuns_;
     FemFields fem_;
     std::vector<double> shearModulus_, pWaveModulus_; ///< per material [Pa]
     // Speed of the waves of the soil [m/s]: with its liquid or, where that may leave, without; and without

@@ -534,25 +534,25 @@ void ExplicitStep<Shape, phases>::staggerStrain(State& state, double dt)
     updateStress(state, true);
 }
 
-/// work(thread, material, begin, end) for blocks of runs, on all threads.
+/// work(thread, run, begin, end) for blocks of runs, on all threads.
 template <class Shape, int phases>
-template <class Work>
-void ExplicitStep<Shape, phases>::inBlocks(std::span<const PointCells::Run> runs, const Work& work) const
+template <class Run, class Work>
+void ExplicitStep<Shape, phases>::inBlocks(std::span<const Run> runs, const Work& work) const
 {
-    const auto blocksOf = [](const PointCells::Run& run) {
+    const auto blocksOf = [](const Run& run) {
         return (run.end - run.begin + pointsPerPiece - 1) / pointsPerPiece;
     };
     int blocks = 0;
-    for (const PointCells::Run& run : runs) {
+    for (const Run& run : runs) {
         blocks += blocksOf(run);
     }
     threads_.share(blocks, 1, [&](int thread, int first, int last) {
-        for (const PointCells::Run& run : runs) {
+        for (const Run& run : runs) {
             const int own = blocksOf(run);
             const int begin = run.begin + pointsPerPiece * std::max(first, 0);
             const int end = std::min(run.end, run.begin + pointsPerPiece * std::min(last, own));
             if (begin < end) {
-                work(thread, run.material, begin, end);
+                work(thread, run, begin, end);
             }
             first -= own;
             last -= own;
@@ -562,8 +562,9 @@ void ExplicitStep<Shape, phases>::inBlocks(std::span<const PointCells::Run> runs
 
 /// The law on the elements from `begin` to before `end` of arrays of points or cells; strain and spin are
 /// those of these.
+/// @returns whether some of them yield
 template <class Shape, int phases>
-void ExplicitStep<Shape, phases>::updateBatch(int material, int thread, int begin, int end,
+bool ExplicitStep<Shape, phases>::updateBatch(int material, int thread, int begin, int end,
                                               const std::array<const double*, 4>& strain, const double* spin,
                                               std::array<std::vector<double>, 4>& stress,
                                               std::vector<std::vector<double>>& variables)
@@ -580,7 +581,7 @@ void ExplicitStep<Shape, phases>::updateBatch(int material, int thread, int begi
         pointers[k] = variables[k].data() + begin;
     }
     batch.state = &pointers;
-    scene_.materials[material].law->update(batch);
+    return scene_.materials[material].law->update(batch);
 }
 
 /// Of the points in cells that rest, or of those in all others.
@@ -588,11 +589,12 @@ template <class Shape, int phases>
 void ExplicitStep<Shape, phases>::updateStress(State& state, bool resting)
 {
     MaterialPoints& points = state.points;
-    inBlocks(pointCells_.runs(resting), [&](int thread, int material, int begin, int end) {
-        updateBatch(material, thread, begin, end,
+    const auto update = [&](int thread, const PointCells::Run& run, int begin, int end) {
+        updateBatch(run.material, thread, begin, end,
                     {&strain_[0][begin], &strain_[1][begin], &strain_[2][begin], &strain_[3][begin]},
                     &spin_[begin], points.stress, points.state);
-    });
+    };
+    inBlocks(pointCells_.runs(resting), update);
 }
 
 template <class Shape, int phases>

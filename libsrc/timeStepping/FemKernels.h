@@ -89,6 +89,7 @@ void ExplicitStep<Shape, phases>::FemFields::resize(std::size_t size)
         component.assign(size, 0);
     }
     yielded.assign(size, 0);
+    yields.assign(size, 0);
     for (std::vector<double>& component : meanRate) {
         component.resize(size);
     }
@@ -147,14 +148,17 @@ void ExplicitStep<Shape, phases>::chooseFemCells(const State& state)
     femCells_.assign(chosen.size(), {});
     femLiquidCells_.assign(twoPhase ? chosen.size() : 0, {});
     femRuns_.clear();
+    const auto viscous = [&](int c) { return mayBeViscous(state, c); };
+    std::ranges::stable_partition(chosen, viscous);
     for (int f = 0; f < static_cast<int>(chosen.size()); ++f) {
         const int c = chosen[f];
         femCells_[f].cell = c;
         femCells_[f].material = material(c);
         femCells_[f].restedBefore = !restedBefore.empty() && restedBefore[c] != 0;
         femOf_[c] = f;
-        if (femRuns_.empty() || femRuns_.back().material != material(c)) {
-            femRuns_.push_back({material(c), true, f, f});
+        if (femRuns_.empty() || femRuns_.back().material != material(c) ||
+            femRuns_.back().viscous != viscous(c)) {
+            femRuns_.push_back({material(c), viscous(c), f, f});
         }
         femRuns_.back().end = f + 1;
     }
@@ -181,6 +185,14 @@ void ExplicitStep<Shape, phases>::chooseFemCells(const State& state)
     viscousStep_ = 0;
 }
 
+/// Whether it has yielded not long ago.
+template <class Shape, int phases>
+bool ExplicitStep<Shape, phases>::mayBeViscous(const State& state, int c) const
+{
+    constexpr long longAgo = 500; // steps, some periods of the shortest waves
+    return scene_.controls.femViscosity > 0 && state.step - yieldedAt_[c] < longAgo;
+}
+
 /// Soil that dilates less than it rubs feeds vibrations as it yields. Cells of points lose what points do not
 /// see of a velocity in every step, which takes the shortest waves away; those at rest would keep them. So
 /// the soil of cells that have yielded not long ago has a viscosity, its elastic stiffness times a share b
@@ -193,13 +205,12 @@ void ExplicitStep<Shape, phases>::chooseFemCells(const State& state)
 template <class Shape, int phases>
 void ExplicitStep<Shape, phases>::setFemViscosity(const State& state, double dt)
 {
-    constexpr long longAgo = 500; // steps, some periods of the shortest waves
     viscousStep_ = viscousReserve * dt;
     for (std::size_t f = 0; f < femCells_.size(); ++f) {
         const int c = femCells_[f].cell;
         const int material = femCells_[f].material;
         fem_.viscousTime[f] = 0;
-        if (state.step - yieldedAt_[c] < longAgo) {
+        if (mayBeViscous(state, c)) {
             const double drained = drainedSpeed_[material];
             const double skeleton = skeletonSpeed_[material];
             const double courant = std::min(1.0, viscousStep_ / cellStep(state, c));
@@ -637,6 +648,9 @@ template <class Real>
     }
 }
 
+/// Of the rate of strain of a step in the mean rate: so this is that of some fifty steps.
+inline constexpr double shareOfRate = 0.02;
+
 } // namespace kernels
 
 /// The stress of the viscosity: a time of the elastic one of a rate of strain.
@@ -670,15 +684,14 @@ template <class Real, class Count>
             stress[2][j] = shapes::lanesOf<Real>(fem_.slopeEta[j], f, count);
         }
     }
-    if (scene_.controls.femViscosity > 0) {
-        constexpr double share = 0.02; // of the rate now in the mean: that of some fifty steps
+    if (block.viscous) {
         const double perStep = 1 / block.dt;
         Real rate[4];
         for (int j = 0; j < 4; ++j) {
             rate[j] = perStep * shapes::lanesOf<Real>(block.strain[j], f - block.begin, count);
             const Real mean = shapes::lanesOf<Real>(fem_.meanRate[j], f, count);
             rate[j] -= mean;
-            shapes::setLanes(fem_.meanRate[j].data(), f, count, Real(mean + share * rate[j]));
+            shapes::setLanes(fem_.meanRate[j].data(), f, count, Real(mean + kernels::shareOfRate * rate[j]));
         }
         addFemViscosity<Real>(material, shapes::lanesOf<Real>(fem_.viscousTime, f, count), rate, stress[0]);
     }
@@ -859,12 +872,17 @@ template <class Real, class Count>
                                                                             int material, int f, Count count)
 {
     using std::sqrt, std::max;
-    Real change[4], strain[4];
+    Real before[4], change[4], strain[4];
     for (int j = 0; j < 4; ++j) {
-        change[j] = shapes::lanesOf<Real>(fem_.stress[j], f, count) -
-                    shapes::lanesOf<Real>(block.stressBefore[j], f - block.begin, count);
+        before[j] = shapes::lanesOf<Real>(block.stressBefore[j], f - block.begin, count);
+        change[j] = shapes::lanesOf<Real>(fem_.stress[j], f, count) - before[j];
         strain[j] = shapes::lanesOf<Real>(block.strain[j], f - block.begin, count);
     }
+    // Less what a rotation changes (Jaumann's rate)
+    const Real spin = shapes::lanesOf<Real>(block.spin, f - block.begin, count);
+    change[0] += 2 * spin * before[3];
+    change[1] -= 2 * spin * before[3];
+    change[3] -= spin * (before[0] - before[1]);
     const double shear = shearModulus_[material];
     const Real dilatation = (strain[0] + strain[1] + strain[2]) / 3;
     const Real pressure = (change[0] + change[1] + change[2]) / 3;
@@ -930,8 +948,9 @@ template <class Count>
     Shape::velocityGradient(cell, vr, vz, rate);
     if constexpr (corners == 4) {
         const double shear = shearModulus_[material] * dt;
+        const bool yields = fem_.yields[block.begin] != 0;
         Real yielding[4];
-        for (int j = 0; j < 4; ++j) {
+        for (int j = 0; yields && j < 4; ++j) {
             yielding[j] = shapes::lanesOf<Real>(fem_.yielding[j], f, count);
         }
         const auto updateSlopes = [&](const Real(&slope)[5], const std::vector<double>& shareAtPoints,
@@ -945,10 +964,15 @@ template <class Count>
                 change[j] = 2 * share * (slope[j] - third);
             }
             change[3] = share * (slope[3] + slope[4]);
-            const Real lost = yielding[0] * change[0] + yielding[1] * change[1] + yielding[2] * change[2] +
-                              2 * yielding[3] * change[3];
+            if (yields) {
+                const Real lost = yielding[0] * change[0] + yielding[1] * change[1] +
+                                  yielding[2] * change[2] + 2 * yielding[3] * change[3];
+                for (int j = 0; j < 4; ++j) {
+                    change[j] -= lost * yielding[j];
+                }
+            }
             for (int j = 0; j < 4; ++j) {
-                const Real sum = shapes::lanesOf<Real>(stress[j], f, count) + change[j] - lost * yielding[j];
+                const Real sum = shapes::lanesOf<Real>(stress[j], f, count) + change[j];
                 shapes::setLanes(stress[j].data(), f, count, sum);
             }
         };
@@ -1019,27 +1043,70 @@ void ExplicitStep<Shape, phases>::updateFemCells(State& state, double dt)
         }
     });
     using Real = shapes::Lanes<Shape::lanes>;
-    inBlocks(femRuns_, [&](int thread, int material, int from, int to) {
-        const bool plastic = scene_.materials[material].law->plastic();
+    const auto update = [&](int thread, const FemRun& run, int from, int to) {
+        const int material = run.material;
         for (int begin = from; begin < to; begin += FemBlock::size) {
             const int end = std::min(begin + FemBlock::size, to);
             FemBlock block;
             block.begin = begin;
             block.dt = dt;
+            block.viscous = run.viscous;
             shapes::inLanes<Shape::lanes>(
                 begin, end, [&](int f, auto count) { strainFemCells(state, dt, block, material, f, count); });
-            updateBatch(material, thread, begin, end,
-                        {block.strain[0], block.strain[1], block.strain[2], block.strain[3]}, block.spin,
-                        fem_.stress, fem_.state);
+            const bool yields =
+                updateBatch(material, thread, begin, end,
+                            {block.strain[0], block.strain[1], block.strain[2], block.strain[3]}, block.spin,
+                            fem_.stress, fem_.state);
+            fem_.yields[begin] = yields ? 1 : 0;
             shapes::inLanes<Shape::lanes>(begin, end, [&](int f, auto count) {
-                if (plastic) {
+                if (yields) {
                     setYielding<Real>(block, material, f, count);
                 }
                 addFemForces<Real>(state, block, material, f, count);
             });
         }
-    });
+    };
+    inBlocks(std::span<const FemRun>(femRuns_), update);
     ++femSteps_;
+}
+
+/// What the viscosity of the cells needs in their next rest. The mean rate of those that had none follows
+/// from what they have been strained by.
+template <class Shape, int phases>
+void ExplicitStep<Shape, phases>::keepMeanRates(const State& state)
+{
+    constexpr double least = 0.01; // share of the elastic stiffness lost
+    const double passed = std::pow(1 - kernels::shareOfRate, static_cast<double>(femSteps_));
+    const auto keep = [&](const FemRun& run, int f) {
+        const int c = femCells_[f].cell;
+        if (fem_.yielded[f] > least) {
+            yieldedAt_[c] = state.step;
+        }
+        if (run.viscous) {
+            for (int j = 0; j < 4; ++j) {
+                meanRate_[c][j] = fem_.meanRate[j][f];
+            }
+            return;
+        }
+        double strainR[corners], strainZ[corners];
+        for (int k = 0; k < corners; ++k) {
+            strainR[k] = femHistory_[fem_.node[f][k]].strainR;
+            strainZ[k] = femHistory_[fem_.node[f][k]].strainZ;
+        }
+        shapes::VelocityGradient<corners> sum;
+        Shape::velocityGradient(cells_[c], strainR, strainZ, sum);
+        const double shift = (fem_.dilatation[f] - sum[0][0] - sum[0][1] - sum[0][2]) / 3;
+        const double strain[4] = {sum[0][0] + shift, sum[0][1] + shift, sum[0][2] + shift,
+                                  sum[0][3] + sum[0][4]};
+        for (int j = 0; j < 4; ++j) {
+            meanRate_[c][j] = passed * meanRate_[c][j] + (1 - passed) * strain[j] / femTime_;
+        }
+    };
+    for (const FemRun& run : femRuns_) {
+        for (int f = run.begin; scene_.materials[run.material].law->plastic() && f < run.end; ++f) {
+            keep(run, f);
+        }
+    }
 }
 
 /// The points that rest catch up with their cells, which are cells of points again.
@@ -1079,15 +1146,8 @@ void ExplicitStep<Shape, phases>::wakeFemCells(State& state)
             }
         });
     }
-    for (std::size_t f = 0; f < femCells_.size(); ++f) {
-        constexpr double least = 0.01; // share of the elastic stiffness lost
-        const int c = femCells_[f].cell;
-        if (fem_.yielded[f] > least) {
-            yieldedAt_[c] = state.step;
-        }
-        for (int j = 0; j < 4; ++j) {
-            meanRate_[c][j] = fem_.meanRate[j][f];
-        }
+    if (scene_.controls.femViscosity > 0) {
+        keepMeanRates(state);
     }
     const auto wake = [&](int c) {
         if (resting(c)) {

@@ -29,6 +29,13 @@ void PointCells::sort(MaterialPoints& points, Threads& threads, std::span<const 
                       [&points](int a, int b) { return points.id[a] < points.id[b]; });
         }
     });
+    pieces_.clear();
+    for (const int p : order_) {
+        if (pieces_.empty() || p != pieces_.back().first + pieces_.back().count) {
+            pieces_.push_back({p, 0});
+        }
+        ++pieces_.back().count;
+    }
     reorder(points, threads);
     findRuns(points, resting);
     for (Slot& slot : slots_) {
@@ -56,8 +63,9 @@ void PointCells::reorder(MaterialPoints& points, Threads& threads)
     labels_.resize(threads.count());
     const auto pick = [this](auto& array, auto& scratch) {
         scratch.resize(order_.size());
-        for (std::size_t i = 0; i < order_.size(); ++i) {
-            scratch[i] = array[order_[i]];
+        auto to = scratch.begin();
+        for (const Piece& piece : pieces_) {
+            to = std::copy_n(array.begin() + piece.first, piece.count, to);
         }
         array.swap(scratch);
     };

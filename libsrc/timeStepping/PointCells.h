@@ -61,6 +61,12 @@ private:
         int cell, first;
     };
 
+    /// Points that stay one behind the other: most do, where few cells have changed.
+    struct Piece
+    {
+        int first, count;
+    };
+
     void makeRoom();
     void reorder(MaterialPoints& points, Threads& threads);
     void findRuns(const MaterialPoints& points, int resting);
@@ -72,6 +78,7 @@ private:
     // Of sort, kept for the next one:
     std::vector<Place> places_;
     std::vector<int> order_;
+    std::vector<Piece> pieces_;
     std::vector<std::vector<double>> numbers_; ///< per thread
     std::vector<std::vector<int>> labels_;     ///< per thread
 };

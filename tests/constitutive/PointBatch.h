@@ -18,7 +18,8 @@ public:
             state.emplace_back(size, value);
     }
 
-    void update()
+    /// @returns what the law says: whether some of them yield
+    bool update()
     {
         std::vector<double*> pointers;
         for (auto& variable : state)
@@ -31,7 +32,7 @@ public:
         }
         batch.spin = spin.data();
         batch.state = &pointers;
-        law_.update(batch);
+        return law_.update(batch);
     }
 
 private:

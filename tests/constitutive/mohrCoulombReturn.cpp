@@ -299,6 +299,56 @@ TEST(MohrCoulomb, leavesNoStressBeyondYieldAndNoAdmissibleStressChanged)
     EXPECT_LE(worstChange, 1e-15);
 }
 
+/// The law returns several points at a time where one of them yields: neighbours must not feel it.
+TEST(MohrCoulomb, givesEveryPointOfABatchWhatItGetsAloneAndSaysWhetherSomeYield)
+{
+    std::mt19937 random(29);
+    std::uniform_real_distribution<double> unit(0, 1);
+    int elasticBatches = 0;
+    for (int sample = 0; sample < 3000; ++sample) {
+        MohrCoulombStrength strength = randomCase(random).strength;
+        strength.gapClosing = sample % 2 == 0;
+        const MohrCoulomb law(elasticity, strength);
+        const int size = 1 + sample % 37;
+        const double safe = sample % 3 == 0 ? 1 : 0.9; // so that batches without any that yields are met
+        PointBatch together(law, size);
+        std::vector<PointBatch> alone;
+        bool oneYields = false;
+        for (int i = 0; i < size; ++i) {
+            PointBatch& point = alone.emplace_back(law);
+            const double pressure = 10 + 1000 * unit(random);
+            for (int k = 0; k < 4; ++k) {
+                const bool shears = unit(random) > safe;
+                point.stress[k][0] = k < 3 ? -pressure : 0;
+                point.strain[k][0] = (shears ? 1e-1 : 1e-6) * (unit(random) - 0.5);
+            }
+            point.spin[0] = 1e-3 * unit(random);
+            point.state[1][0] = strength.gapClosing ? 1e-6 * unit(random) : 0;
+            for (int k = 0; k < 4; ++k) {
+                together.stress[k][i] = point.stress[k][0];
+                together.strain[k][i] = point.strain[k][0];
+            }
+            together.spin[i] = point.spin[0];
+            together.state[1][i] = point.state[1][0];
+            oneYields = point.update() || oneYields;
+        }
+        EXPECT_EQ(together.update(), oneYields) << "batch of " << size << " points";
+        elasticBatches += oneYields ? 0 : 1;
+        for (int i = 0; i < size; ++i) {
+            const std::string where = "point " + std::to_string(i) + " of " + std::to_string(size);
+            for (int k = 0; k < 4; ++k) {
+                const double expected = alone[i].stress[k][0];
+                ASSERT_NEAR(together.stress[k][i], expected, 1e-11 * (1 + std::abs(expected))) << where;
+            }
+            for (int k = 0; k < 2; ++k) {
+                ASSERT_NEAR(together.state[k][i], alone[i].state[k][0], 1e-14) << where;
+            }
+        }
+    }
+    EXPECT_GE(elasticBatches, 100);
+    EXPECT_LE(elasticBatches, 2900);
+}
+
 /// Plastic work of the returned stress. With psi >= 0 it cannot be negative. Contractant flow (psi < 0) takes
 /// energy from the tensile tip of a cohesive cone, s1 + s3 > 2 c cos(phi)/(sin(phi) - sin(psi)), by its
 /// definition: such stresses are left out.
