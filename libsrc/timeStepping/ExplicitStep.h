@@ -528,6 +528,13 @@ private:
     void averageDilatationAtNodes();
     template <class Velocity>
     void averageAtNodes(std::vector<double>& cellRate, const Velocity& velocity);
+    /// The free surface whose water a void cell has at a corner. Over a wall that of the node's side: where
+    /// two surfaces meet, the jump between their pressures would act on soil that reaches the top of the
+    /// wall.
+    [[nodiscard]] int voidSurface(int c, int k) const
+    {
+        return overWall_[c] ? nodeSurface_[cellNodes_[c * corners + k]] : freeSurface_[c];
+    }
     /// Of a point now: the grains keep their volume.
     [[nodiscard]] double porosity(const MaterialPoints& points, int p) const
     {
@@ -659,12 +666,13 @@ private:
     std::vector<double> wallWater_; ///< per body: vertical force of the water on it [N/rad or N/m]
     // Two phases only.
     std::vector<LiquidNode> liquidNodes_;
-    std::vector<std::array<bool, 2>> solidHeld_;   ///< per node of the liquid's boundary and direction
-    std::vector<LiquidProperties> liquid_;         ///< per material
-    std::vector<int> freeSurface_;                 ///< per cell: the free surface that its void would be of
-    std::vector<unsigned char> overWall_;          ///< per cell: at the radius of a wall
-    std::vector<int> voidCells_;                   ///< empty cells with active nodes
-    bool pumped_ = false;                          ///< a free surface has a given flow
+    std::vector<std::array<bool, 2>> solidHeld_; ///< per node of the liquid's boundary and direction
+    std::vector<LiquidProperties> liquid_;       ///< per material
+    std::vector<int> freeSurface_;               ///< per cell: the free surface that its void would be of
+    std::vector<int> nodeSurface_;               ///< per node of a void cell: the free surface that it is of
+    std::vector<unsigned char> overWall_;        ///< per cell: at the radius of a wall
+    std::vector<int> voidCells_;                 ///< empty cells with active nodes
+    bool pumped_ = false;                        ///< a free surface has a given flow
     std::vector<std::array<double, 2>> voidForce_; ///< per corner, of a unit pressure in the void; with pumps
     std::vector<double> givenPressure_;            ///< per node: excess pressure of a boundary, or NaN
     std::vector<int> openNodes_;                   ///< on patches that give a pressure

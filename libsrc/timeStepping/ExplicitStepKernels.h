@@ -199,6 +199,7 @@ ExplicitStep<Shape, phases>::ExplicitStep(const Scene& scene, State& state)
         findCheckerboardSigns();
         wallArea_.resize(mesh.nodes());
         givenPressure_.assign(mesh.nodes(), std::numeric_limits<double>::quiet_NaN());
+        nodeSurface_.assign(mesh.nodes(), -1);
         openNodes_ = scene.liquidBoundary.openNodes(mesh);
         waterLoad_.resize(mesh.nodes());
         cellLiquidRate_.assign(cells, 0);
@@ -455,24 +456,21 @@ void ExplicitStep<Shape, phases>::setSeepage(const State& state, const std::vect
         for (int k = 0; k < corners; ++k) {
             p[k] = excess[cellNodes_[c * corners + k]];
         }
-        if (!occupied_[c]) {
-            double ofSurface = 0;
-            for (int k = 0; k < corners; ++k) {
-                ofSurface = activeNode_[cellNodes_[c * corners + k]] ? p[k] : ofSurface;
-            }
-            std::fill_n(p, corners, ofSurface);
-        }
+        const bool isVoid = !occupied_[c];
         const auto& m = Shape::moments(cells_[c]);
         double part[3] = {}; // mean and slopes
         for (int k = 0; k < corners; ++k) {
             part[0] += m.n[k] * p[k];
         }
         if constexpr (corners == 4) {
-            part[1] = 0.25 * (-p[0] + p[1] + p[2] - p[3]);
-            part[2] = 0.25 * (-p[0] - p[1] + p[2] + p[3]);
+            if (!isVoid) {
+                part[1] = 0.25 * (-p[0] + p[1] + p[2] - p[3]);
+                part[2] = 0.25 * (-p[0] - p[1] + p[2] + p[3]);
+            }
         }
         for (int k = 0; k < corners; ++k) {
             std::array<double, 2>& load = waterLoad_[cellNodes_[c * corners + k]];
+            part[0] = isVoid ? p[k] : part[0];
             for (int j = 0; j < shapes::Moments<corners>::count; ++j) {
                 load[0] += m.volume * part[j] * (m.gr[j][k] + m.h[j][k]);
                 load[1] += m.volume * part[j] * m.gz[j][k];

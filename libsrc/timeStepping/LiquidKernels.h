@@ -44,6 +44,7 @@ void ExplicitStep<Shape, phases>::prepareLiquid(const State& state)
     for (const int c : voidCells_) {
         for (int k = 0; k < corners; ++k) {
             const int i = cellNodes_[c * corners + k];
+            nodeSurface_[i] = freeSurface_[c];
             givenPressure_[i] = surfacePressure_[freeSurface_[c]];
             voidNodes_.push_back(i);
         }
@@ -197,8 +198,8 @@ void ExplicitStep<Shape, phases>::mapLiquidToNodes(const State& state, int c)
 template <class Shape, int phases>
 void ExplicitStep<Shape, phases>::mapVoidToNodes(int c)
 {
-    const double pressure = surfacePressure_[freeSurface_[c]];
     for (int k = 0; k < corners; ++k) {
+        const double pressure = surfacePressure_[voidSurface(c, k)];
         Corner& corner = cornerSums_[c * corners + k];
         corner.pressureR = pressure * dilatation_[c].volume * dilatation_[c].br[k];
         corner.pressureZ = pressure * dilatation_[c].volume * dilatation_[c].bz[k];
@@ -223,8 +224,11 @@ void ExplicitStep<Shape, phases>::pump(State& state, double dt)
         const Function1& given = surface.pumpFlow ? *surface.pumpFlow : *surface.seepageFlow;
         const double voidMoves = surface.pumpFlow ? 1 : 0;
         double inflow = 0;
-        const auto add = [&](int c) {
-            for (int k = 0; k < corners && freeSurface_[c] == static_cast<int>(s); ++k) {
+        const auto add = [&](int c, bool isVoid) {
+            for (int k = 0; k < corners; ++k) {
+                if ((isVoid ? voidSurface(c, k) : freeSurface_[c]) != static_cast<int>(s)) {
+                    continue;
+                }
                 const int i = cellNodes_[c * corners + k];
                 const double n = liquidNodes_[i].porosity;
                 const double r = voidMoves * nodes_[i].vr + n * liquidNodes_[i].relativeVr;
@@ -235,11 +239,11 @@ void ExplicitStep<Shape, phases>::pump(State& state, double dt)
         };
         for (const int c : active_.items) {
             if (bySurface_[c]) {
-                add(c);
+                add(c, false);
             }
         }
         for (const int c : voidCells_) {
-            add(c);
+            add(c, true);
         }
         for (const RigidBody& body : state.bodies) {
             if (surface.pumpFlow && body.name == surface.body) {
@@ -374,6 +378,9 @@ void ExplicitStep<Shape, phases>::touchTwoPhase(const RigidBody& body, BodyReact
     const double ms = node.mass;
     const double mw = liquid.mass;
     const double drag = liquid.drag;
+    // The liquid in a corner moves with both faces, so what drags the solid there is a wall.
+    const bool atTip = contact.faces == 2 && contact.part[0] == SurfacePart::tip;
+    const bool corner = contact.faces == 2 && (!atTip || body.tipCorner == TipCorner::full);
     const auto touch = [&](const std::array<double, 2>& n, SurfacePart part, double bodyVz, double area) {
         const std::array<double, 2> t{-n[1], n[0]};
         const double wallN = bodyVz * n[1];
@@ -399,7 +406,7 @@ void ExplicitStep<Shape, phases>::touchTwoPhase(const RigidBody& body, BodyReact
         const double solidN = liquid.solidVr * n[0] + liquid.solidVz * n[1];
         const double solidT = liquid.solidVr * t[0] + liquid.solidVz * t[1];
         const double liquidN = liquid.liquidVr * n[0] + liquid.liquidVz * n[1];
-        const double liquidT = liquid.liquidVr * t[0] + liquid.liquidVz * t[1];
+        const double liquidT = corner ? wallT : liquid.liquidVr * t[0] + liquid.liquidVz * t[1];
         // Along the normal the liquid moves with the wall; the solid feels its drag.
         double newN = (ms * solidN + drag * wallN) / (ms + drag);
         const bool pressed = newN < wallN;
@@ -411,7 +418,7 @@ void ExplicitStep<Shape, phases>::touchTwoPhase(const RigidBody& body, BodyReact
         newN = pressed ? wallN : newN;
         const double waterN = mw * (wallN - liquidN) + drag * (wallN - newN);
         // Along the wall both move; an impulse on the solid drags the liquid along.
-        const double dragged = mw * drag / (mw + drag);
+        const double dragged = corner ? drag : mw * drag / (mw + drag);
         double newT = (ms * solidT + dragged * liquidT) / (ms + dragged);
         const double stick = (ms + dragged) * (wallT - newT);
         const double impulseT = std::abs(stick) > limit ? std::copysign(limit, stick) : stick;
@@ -419,7 +426,7 @@ void ExplicitStep<Shape, phases>::touchTwoPhase(const RigidBody& body, BodyReact
             wallTouches_.back().sticks = pressed && std::abs(stick) <= limit;
         }
         newT += impulseT / (ms + dragged);
-        const double liquidNewT = (mw * liquidT + drag * newT) / (mw + drag);
+        const double liquidNewT = corner ? wallT : (mw * liquidT + drag * newT) / (mw + drag);
 
         const double changeN = newN - oldN;
         const double changeT = newT - oldT;
@@ -449,9 +456,8 @@ void ExplicitStep<Shape, phases>::touchTwoPhase(const RigidBody& body, BodyReact
         reaction.work += water * body.velocity;
     }
     touchFaces(body, contact, touch);
-    const bool corner = contact.faces == 2 && contact.part[0] == SurfacePart::tip;
-    if (contact.faces == 2 && (!corner || body.tipCorner == TipCorner::full)) {
-        liquid.relativeVr = -node.vr; // the liquid in a corner moves with both faces
+    if (corner) {
+        liquid.relativeVr = -node.vr;
         liquid.relativeVz = body.velocity - node.vz;
     }
 }

@@ -3,6 +3,7 @@
 #include "support/Simulation.h"
 #include "support/StructuredMesh.h"
 
+#include <Eigen/Dense>
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -485,6 +486,51 @@ TEST_P(FreeSurfaces, aSuctionReachesTheWholeColumn)
     EXPECT_LT(largest, 20);
 }
 
+/// Where soil has come to the top of a wall, two waters meet over it. Each soil feels its own.
+TEST_P(FreeSurfaces, doNotPushSoilAtTheTopOfAWallBetweenThem)
+{
+    constexpr double inside = -5e4;
+    Simulation simulation;
+    simulation.state.mesh =
+        structuredMesh(evenLines(0, 0.5, 5), evenLines(0, 1.3, 13), Geometry::axisymmetric);
+    const int soil = simulation.addMaterial("soil", saturatedSoil(6e7, 0.25, 1e-12, 2e7));
+    simulation.scene.controls.phases = 2;
+    simulation.scene.controls.pressureCoupling = coupling;
+    simulation.setConditions("right { type slip; } bottom { type slip; } top { type zeroGradient; }");
+    simulation.setPressures("right { type impermeable; } bottom { type impermeable; } "
+                            "top { type impermeable; }");
+    RigidBody tube;
+    tube.name = "tube";
+    tube.profile = caissonProfile(0.3, 0.1, 1, 0, 0);
+    simulation.state.bodies.push_back(tube);
+    for (const auto region : {FreeSurface::Region::inside, FreeSurface::Region::outside}) {
+        FreeSurface surface;
+        surface.name = region == FreeSurface::Region::inside ? "plug" : "seabed";
+        surface.region = region;
+        surface.body = tube.name;
+        surface.pressure = constantFunction1(region == FreeSurface::Region::inside ? inside : 0);
+        simulation.scene.freeSurfaces.push_back(std::move(surface));
+    }
+    simulation.fill(soil, 2, 2, [](double r, double z) { return r < 0.2 ? z < 1.05 : r > 0.3 && z < 0.95; });
+    MaterialPoints& points = simulation.state.points;
+    points.addLiquid();
+    for (std::size_t p = 0; p < points.size(); ++p) {
+        points.porePressure[p] = points.r[p] < 0.2 ? inside : 0;
+    }
+    simulation.start();
+    const double dt = 0.5 * simulation.step->stableStep(simulation.state).step;
+    double fastest = 0;
+    for (int i = 0; i < 100; ++i) {
+        simulation.step->advance(simulation.state, dt);
+        for (std::size_t p = 0; p < points.size(); ++p) {
+            fastest = std::max(
+                {fastest, std::hypot(points.vr[p], points.vz[p]), std::hypot(points.wr[p], points.wz[p])});
+        }
+    }
+    report("two waters over a wall: largest velocity of the soil [m/s]", fastest, 1e-10);
+    EXPECT_LT(fastest, 1e-10);
+}
+
 /// Below an impermeable surface the pressure of the base comes to stand in the whole column; what is fed in
 /// through the surface is stored.
 TEST(FreeSurface, aCoverLetsThroughTheFlowThatIsGiven)
@@ -814,6 +860,47 @@ TEST_P(Rod, frictionFollowsFromTheEffectiveStressAlone)
                          (mu * pressed * a * height * (1 - 1.0 / (8 * n)));
     report("pull-out under pore pressure: tau/(mu sigma') - 1", shear - 1, 1e-2);
     EXPECT_NEAR(shear, 1, 1e-2);
+}
+
+/// Solid that moves into a corner while the liquid moves out of it: neither face lets it pass, whatever the
+/// drag along the other one. The four nodes of the cell follow from its four points.
+TEST(Contact, aCornerHoldsTheSolidAtBothFaces)
+{
+    Simulation simulation;
+    const std::vector<double> lines{0, 1, 1.5};
+    simulation.state.mesh = structuredMesh(lines, lines, Geometry::planeStrain);
+    const int soil = simulation.addMaterial("soil", saturatedSoil(6e7, 0.25, 1e-18, 2e7));
+    simulation.scene.controls.phases = 2;
+    simulation.scene.controls.femCells = SolutionControls::FemCells::none;
+    simulation.setConditions("left { type zeroGradient; } right { type slip; } bottom { type zeroGradient; } "
+                             "top { type slip; }");
+    RigidBody lid;
+    lid.name = "lid";
+    lid.profile = caissonProfile(1.5, 0.5, 1.5, 1, 0.5);
+    simulation.state.bodies.push_back(lid);
+    simulation.fill(soil, 2, 2, [](double r, double z) { return r < 1 && z < 1; });
+    MaterialPoints& points = simulation.state.points;
+    ASSERT_EQ(points.size(), 4);
+    points.addLiquid();
+    for (const double liquid : {-2.0, 0.0, 3.0}) {
+        std::ranges::fill(points.vr, 1.0);
+        std::ranges::fill(points.vz, 1.0);
+        std::ranges::fill(points.wr, liquid);
+        std::ranges::fill(points.wz, liquid);
+        simulation.start();
+        const std::vector<double> r = points.r, z = points.z;
+        simulation.step->advance(simulation.state, 1e-9); // no time for stress, enough for drag
+        Eigen::Matrix4d N;
+        Eigen::Matrix<double, 4, 2> v;
+        for (int p = 0; p < 4; ++p) {
+            N.row(p) << (1 - r[p]) * (1 - z[p]), r[p] * (1 - z[p]), r[p] * z[p], (1 - r[p]) * z[p];
+            v.row(p) << points.vr[p] - 1, points.vz[p] - 1;
+        }
+        const Eigen::Matrix<double, 4, 2> change = N.fullPivLu().solve(v);
+        const double slip = std::max(std::abs(1 + change(2, 0)), std::abs(1 + change(2, 1)));
+        report("solid in a corner: velocity of its node [m/s]", slip, 1e-6);
+        EXPECT_LT(slip, 1e-6) << "liquid " << liquid;
+    }
 }
 
 } // namespace
