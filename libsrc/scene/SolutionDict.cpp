@@ -74,6 +74,9 @@ constexpr Keyword keywords[] = {
     {"monitorInterval", "s", "0.005", "[0, inf)", "least time between two records in postProcessing"},
     {"sortInterval", "integer", "50", "[1, 100000]",
      "steps between two sorts of the points in memory, at most: FEM cells may need them sooner"},
+    {"checkInterval", "integer", "10", "[1, 100]",
+     "steps between two estimates of the stable step, and two looks at how full the cells are: cells that a "
+     "mesh compresses lose next to nothing in between"},
     {"passedPointsPerCell", "integer", "0", "[0, 1000]",
      "points that a filled cell keeps where the tip of a body that the mesh follows down has passed it: more "
      "are merged two by two, 8 or 9 will do. 0: any number"},
@@ -203,6 +206,7 @@ SolutionControls readSolutionControls(const Dictionary& mpmSolution, bool triang
     controls.inertiaGate = reader.number("inertiaGate");
     controls.energyGate = reader.number("energyGate");
     controls.sortInterval = static_cast<int>(reader.integer("sortInterval"));
+    controls.checkInterval = static_cast<int>(reader.integer("checkInterval"));
     controls.passedPointsPerCell = static_cast<int>(reader.integer("passedPointsPerCell"));
     if (controls.passedPointsPerCell > 0 && controls.passedPointsPerCell < leastPassedPoints) {
         reader.problem("passedPointsPerCell", "a cell of so few points has no slopes of stress",

@@ -87,13 +87,18 @@ void ExplicitStep<Shape, phases>::divide(WorkList& list) const
     }
 }
 
+/// @param looks  whether cells are looked at that have neither got soil nor lost all of theirs
 template <class Shape, int phases>
-void ExplicitStep<Shape, phases>::classifyCells(State& state)
+void ExplicitStep<Shape, phases>::classifyCells(State& state, bool looks)
 {
+    if (!looks && !occupancyChanged_) {
+        return;
+    }
     const int cells = state.mesh.cells();
     const bool sorted = occupancyChanged_;
     if (occupancyChanged_) {
         occupancyChanged_ = false;
+        stable_.step = 0;
         occupied_.assign(cells, 0);
         active_.items.clear();
         for (int c = 0; c < cells; ++c) {

@@ -400,7 +400,7 @@ private:
     void divideCells();
     void divide(WorkList& list) const;
     void findOuterNodes();
-    void classifyCells(State& state);
+    void classifyCells(State& state, bool looks);
     void moveBodies(State& state, double dt);
     void meanPressures(const State& state, std::vector<double>& cellPressure) const;
     void averageOverNodes(const std::vector<double>& ofCells, std::vector<double>& result) const;
@@ -588,6 +588,7 @@ private:
     void accumulateFemNodes(double dt);
     void returnInnerMotion();
     [[nodiscard]] StableStep femStep(const State& state) const;
+    [[nodiscard]] StableStep estimatedStep(const State& state) const;
     void keepMeanRates(const State& state);
     void wakeFemCells(State& state);
     void wakeFemCell(State& state, int c);
@@ -612,6 +613,8 @@ private:
     const Scene& scene_;
     mutable Threads threads_;
     mutable std::vector<StableStep> shortest_;           ///< per thread
+    mutable StableStep stable_{};                        ///< as estimated last; its step 0 where not known
+    mutable long stableSince_ = 0;                       ///< step of that
     std::vector<std::vector<PointCells::Mover>> movers_; ///< per thread
     std::vector<std::vector<double*>> statePointers_;    ///< per thread
     std::vector<int> cellNodes_;                         ///< corners in the order that Shape wants

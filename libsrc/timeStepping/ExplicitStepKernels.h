@@ -271,7 +271,7 @@ void ExplicitStep<Shape, phases>::rebuild(State& state)
     pointCells_.index(state.points, state.mesh.cells());
     pointCells_.sort(state.points, threads_);
     occupancyChanged_ = true;
-    classifyCells(state);
+    classifyCells(state, true);
     scaleInertia(state);
     sortPoints(state);
 }
@@ -371,7 +371,7 @@ void ExplicitStep<Shape, phases>::advance(State& state, double dt)
             state.massScaling = adaptedMassScaling(scene_, state);
             scaleInertia(state);
         }
-    } else if (scene_.controls.scaleSmallCells) {
+    } else if (scene_.controls.scaleSmallCells && state.step % scene_.controls.checkInterval == 0) {
         scaleInertia(state);
     }
     threads_.lap(!sorts);

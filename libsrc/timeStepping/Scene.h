@@ -83,7 +83,8 @@ struct SolutionControls
     /// stiff water, whenever a wave of the skeleton has passed a cell; smooth fields change by O(h^8), in
     /// triangles O(h^4).
     double checkerboardFilter = 1;
-    int sortInterval = 50; ///< steps between physical sorts of the points; those of FEM cells rest between
+    int sortInterval = 50;  ///< steps between physical sorts of the points; those of FEM cells rest between
+    int checkInterval = 10; ///< steps between estimates of the stable step, and looks at how full cells are
     int passedPointsPerCell = 0; ///< at most, where the tip of the moving body has passed; 0: any number
     int threads = 0;             ///< 0: the processors, where there are points enough
 

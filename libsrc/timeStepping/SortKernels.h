@@ -133,7 +133,7 @@ void ExplicitStep<Shape, phases>::relocate(State& state, bool sorts)
         occupancyChanged_ =
             occupancyChanged_ || pointCells_.count(from) == 0 || !occupied_[points.cell[point]];
     }
-    classifyCells(state);
+    classifyCells(state, sorts || state.step % scene_.controls.checkInterval == 0);
     if (sorts) {
         sortPoints(state);
     }

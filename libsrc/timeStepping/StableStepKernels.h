@@ -40,6 +40,7 @@ void ExplicitStep<Shape, phases>::findStiffestMode(const State& state)
         constexpr double largest = 4;
         return std::isnan(step) ? 1.0 : std::min(step / byAltitude, largest);
     };
+    stable_.step = 0;
     stepShare_ = over(mode_.step(threads_));
     if (twoPhase && scene_.controls.drag == SolutionControls::Drag::lagged) {
         nodalShare_ = over(mode_.stepOfNodes(threads_));
@@ -176,6 +177,7 @@ void ExplicitStep<Shape, phases>::scaleInertia(const State& state)
 {
     femInnerOld_ = true;
     femStep_.step = 0;
+    stable_.step = 0;
     viscousStep_ = 0;
     if (!scene_.controls.scaleSmallCells) {
         std::ranges::fill(inertiaScale_, state.massScaling);
@@ -252,6 +254,16 @@ double ExplicitStep<Shape, phases>::cellStep(const State& state, int c) const
 
 template <class Shape, int phases>
 StableStep ExplicitStep<Shape, phases>::stableStep(const State& state) const
+{
+    if (stable_.step == 0 || state.step - stableSince_ >= scene_.controls.checkInterval) {
+        stable_ = estimatedStep(state);
+        stableSince_ = state.step;
+    }
+    return stable_;
+}
+
+template <class Shape, int phases>
+StableStep ExplicitStep<Shape, phases>::estimatedStep(const State& state) const
 {
     // Linear bulk viscosity b shortens the step by sqrt(1 + b^2) - b.
     const double b = scene_.controls.linearBulkViscosity;

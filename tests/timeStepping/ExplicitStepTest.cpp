@@ -389,8 +389,8 @@ TEST(FreeBody, ofSandThatBurstsStaysStable)
     EXPECT_LT(fastest, 1.5 * speed);
 }
 
-// A skirt pushed into sand: no point ends inside the wall, and the soil pushes back.
-TEST(Skirt, isResistedAndKeepsPointsOutOfItsWall)
+/// A skirt that is pushed into sand, with the mesh that follows it.
+Simulation skirtInSand()
 {
     Simulation simulation;
     simulation.state.mesh =
@@ -415,6 +415,13 @@ TEST(Skirt, isResistedAndKeepsPointsOutOfItsWall)
     simulation.setStress([&](double, double z) {
         return std::array<double, 4>{0.384 * weight * z, weight * z, 0.384 * weight * z, 0};
     });
+    return simulation;
+}
+
+// No point ends inside the wall, and the soil pushes back.
+TEST(Skirt, isResistedAndKeepsPointsOutOfItsWall)
+{
+    Simulation simulation = skirtInSand();
     simulation.start();
     simulation.run(0.8, 0.7);
     const RigidBody& now = simulation.state.bodies[0];
@@ -428,6 +435,25 @@ TEST(Skirt, isResistedAndKeepsPointsOutOfItsWall)
     EXPECT_GT(reaction.verticalImpulse[static_cast<int>(SurfacePart::tip)], 0) << "the soil resists";
     EXPECT_GT(reaction.verticalImpulse[static_cast<int>(SurfacePart::outer)], 0);
     EXPECT_GT(reaction.work, 0);
+}
+
+TEST(Checks, ofEveryTenthStepFindWhatThoseOfEveryStepFind)
+{
+    std::array<double, 2> impulse{};
+    std::array<long, 2> steps{};
+    for (const bool seldom : {false, true}) {
+        Simulation simulation = skirtInSand();
+        simulation.scene.controls.checkInterval = seldom ? 10 : 1;
+        simulation.start();
+        simulation.run(0.4, 0.7);
+        impulse[seldom] = simulation.state.reactions[0].totalVerticalImpulse();
+        steps[seldom] = simulation.state.step;
+    }
+    const double difference = impulse[1] / impulse[0] - 1;
+    std::printf("checks of every tenth step: impulse of the soil %.2e, %ld and %ld steps\n", difference,
+                steps[1], steps[0]);
+    EXPECT_NEAR(difference, 0, 1e-2);
+    EXPECT_NEAR(static_cast<double>(steps[1]) / static_cast<double>(steps[0]), 1, 2e-3);
 }
 
 /// A plate of weight W on an elastic column: its rest is where the column carries it, and the reaction is W.
