@@ -13,28 +13,30 @@ MeshMotion::MeshMotion(MeshMotionHeights heights, std::string body)
 {
 }
 
-double MeshMotion::weight(double referenceZ) const
+namespace {
+
+/// Without branches, for loops over nodes.
+double weightOf(const MeshMotionHeights& heights, double z)
 {
-    const auto& [bottom, movingBottom, movingTop, top] = heights_;
-    if (!moves_ || referenceZ <= bottom || referenceZ >= top) {
-        return 0;
-    }
-    if (referenceZ < movingBottom) {
-        return (referenceZ - bottom) / (movingBottom - bottom);
-    }
-    if (referenceZ > movingTop) {
-        return (top - referenceZ) / (top - movingTop);
-    }
-    return 1;
+    const double rise = (z - heights.bottom) / (heights.movingBottom - heights.bottom);
+    const double fall = (heights.top - z) / (heights.top - heights.movingTop);
+    const double least = rise < fall ? rise : fall;
+    const double weight = least < 1 ? least : 1;
+    return (z > heights.bottom) & (z < heights.top) ? weight : 0;
 }
+
+} // namespace
+
+double MeshMotion::weight(double referenceZ) const { return moves_ ? weightOf(heights_, referenceZ) : 0; }
 
 void MeshMotion::place(BackgroundMesh& mesh, const std::vector<double>& referenceZ, double displacement) const
 {
     if (!moves_) {
         return;
     }
+    const MeshMotionHeights heights = heights_; // a copy cannot change with the nodes
     for (std::size_t i = 0; i < referenceZ.size(); ++i) {
-        mesh.z[i] = referenceZ[i] + weight(referenceZ[i]) * displacement;
+        mesh.z[i] = referenceZ[i] + weightOf(heights, referenceZ[i]) * displacement;
     }
 }
 

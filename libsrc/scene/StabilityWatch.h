@@ -10,7 +10,7 @@ namespace caisson {
 class StabilityWatch
 {
 public:
-    static constexpr int interval = 25; ///< steps between two looks
+    static constexpr int interval = 50; ///< steps between two looks
 
     /// After every step.
     /// @param stable   what was stable before the step

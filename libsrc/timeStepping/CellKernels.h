@@ -87,90 +87,85 @@ void ExplicitStep<Shape, phases>::divide(WorkList& list) const
     }
 }
 
+/// Which cells have soil, and what follows from it.
+template <class Shape, int phases>
+void ExplicitStep<Shape, phases>::updateOccupancy(State& state)
+{
+    const int cells = state.mesh.cells();
+    const int nodes = state.mesh.nodes();
+    const auto nodeOf = [this](int c, int k) { return cellNodes_[c * corners + k]; };
+    // Sums of cells that went empty must not linger, nor those of voids.
+    const auto forget = [&](int c) {
+        const std::ptrdiff_t first = static_cast<std::ptrdiff_t>(c) * corners;
+        std::fill_n(cornerSums_.begin() + first, corners, Corner{});
+        if (twoPhase && pumped_) {
+            std::fill_n(voidForce_.begin() + first, corners, std::array<double, 2>{});
+        }
+    };
+    std::ranges::for_each(voidCells_, forget);
+    occupied_.resize(cells, 0);
+    surfaceNode_.assign(nodes, 0);
+    active_.items.clear();
+    emptyCells_.clear();
+    for (int c = 0; c < cells; ++c) {
+        if (pointCells_.count(c) > 0) {
+            occupied_[c] = 1;
+            active_.items.push_back(c);
+            continue;
+        }
+        if (occupied_[c]) {
+            forget(c);
+        }
+        occupied_[c] = 0;
+        state.filled[c] = 0;
+        emptyCells_.push_back(c);
+        for (int k = 0; k < corners && !inside_[c]; ++k) {
+            surfaceNode_[nodeOf(c, k)] = 1;
+        }
+    }
+    bySurface_.assign(cells, 0);
+    activeNode_.assign(nodes, 0);
+    for (const int c : active_.items) {
+        for (int k = 0; k < corners; ++k) {
+            bySurface_[c] |= surfaceNode_[nodeOf(c, k)];
+            activeNode_[nodeOf(c, k)] = 1;
+        }
+    }
+    activeNodes_.clear();
+    for (int i = 0; i < nodes; ++i) {
+        if (activeNode_[i]) {
+            activeNodes_.push_back(i);
+        }
+    }
+    if constexpr (twoPhase) {
+        voidCells_.clear();
+        for (const int c : emptyCells_) {
+            bool beside = false;
+            for (int k = 0; k < corners; ++k) {
+                beside = beside || activeNode_[nodeOf(c, k)];
+            }
+            if (beside && !inside_[c] && freeSurface_[c] >= 0) {
+                voidCells_.push_back(c);
+            }
+        }
+        // Nodes of several take the pressure of the last: that of a side rather than of what is over a wall.
+        std::ranges::stable_partition(voidCells_, [this](int c) { return overWall_[c] != 0; });
+        findFilterNodes();
+    }
+    stable_.step = 0;
+    divideCells();
+}
+
 /// @param looks  whether cells are looked at that have neither got soil nor lost all of theirs
 template <class Shape, int phases>
 void ExplicitStep<Shape, phases>::classifyCells(State& state, bool looks)
 {
-    if (!looks && !occupancyChanged_) {
+    if (occupancyChanged_) {
+        updateOccupancy(state);
+    } else if (!looks) {
         return;
     }
-    const int cells = state.mesh.cells();
-    const bool sorted = occupancyChanged_;
-    if (occupancyChanged_) {
-        occupancyChanged_ = false;
-        stable_.step = 0;
-        occupied_.assign(cells, 0);
-        active_.items.clear();
-        for (int c = 0; c < cells; ++c) {
-            if (pointCells_.count(c) > 0) {
-                occupied_[c] = 1;
-                active_.items.push_back(c);
-            }
-        }
-        surfaceNode_.assign(state.mesh.nodes(), 0);
-        for (int c = 0; c < cells; ++c) {
-            if (!occupied_[c] && !inside_[c]) {
-                for (int k = 0; k < corners; ++k) {
-                    surfaceNode_[cellNodes_[c * corners + k]] = 1;
-                }
-            }
-        }
-        bySurface_.assign(cells, 0);
-        activeNode_.assign(state.mesh.nodes(), 0);
-        for (const int c : active_.items) {
-            for (int k = 0; k < corners; ++k) {
-                const int i = cellNodes_[c * corners + k];
-                bySurface_[c] |= surfaceNode_[i];
-                activeNode_[i] = 1;
-            }
-        }
-        emptyCells_.clear();
-        for (int c = 0; c < cells; ++c) {
-            if (!occupied_[c]) {
-                emptyCells_.push_back(c);
-            }
-        }
-        activeNodes_.clear();
-        for (int i = 0; i < state.mesh.nodes(); ++i) {
-            if (activeNode_[i]) {
-                activeNodes_.push_back(i);
-            }
-        }
-        if constexpr (twoPhase) {
-            voidCells_.clear();
-            for (int c = 0; c < cells; ++c) {
-                bool beside = false;
-                for (int k = 0; k < corners; ++k) {
-                    beside = beside || activeNode_[cellNodes_[c * corners + k]];
-                }
-                if (beside && !occupied_[c] && !inside_[c] && freeSurface_[c] >= 0) {
-                    voidCells_.push_back(c);
-                }
-            }
-            // Nodes of several take the pressure of the last: that of a side rather than of what is over a
-            // wall.
-            std::ranges::stable_partition(voidCells_, [this](int c) { return overWall_[c] != 0; });
-            if (corners == 4) {
-                findFilterNodes();
-            }
-        }
-        // Sums of cells that went empty must not linger.
-        for (int c = 0; c < cells; ++c) {
-            if (!occupied_[c]) {
-                state.filled[c] = 0;
-                const std::ptrdiff_t first = static_cast<std::ptrdiff_t>(c) * corners;
-                std::fill_n(cornerSums_.begin() + first, corners, Corner{});
-                if constexpr (twoPhase) {
-                    if (pumped_) {
-                        std::fill_n(voidForce_.begin() + first, corners, std::array<double, 2>{});
-                    }
-                }
-            }
-        }
-    }
-    if (sorted) {
-        divideCells();
-    }
+    occupancyChanged_ = false;
     const bool mixed = scene_.controls.integration == SolutionControls::Integration::mixed;
     forAwakeCells([&](int c) {
         if (resting(c)) {

@@ -400,6 +400,7 @@ private:
     void divideCells();
     void divide(WorkList& list) const;
     void findOuterNodes();
+    void updateOccupancy(State& state);
     void classifyCells(State& state, bool looks);
     void moveBodies(State& state, double dt);
     void meanPressures(const State& state, std::vector<double>& cellPressure) const;
@@ -683,7 +684,8 @@ private:
     mutable std::vector<double> cellPressure_, cellAverage_; ///< of the filter
     double stepsPerPassage_ = 0; ///< of a wave of the skeleton through a cell, where the filter asks for it
     std::vector<signed char> checkerboardSign_;        ///< per corner
-    std::vector<FilterNode> filterNodes_;              ///< where the filter looks (quadrilaterals)
+    std::vector<FilterNode> checkerboardNodes_;        ///< those between four cells (quadrilaterals)
+    std::vector<FilterNode> filterNodes_;              ///< those that the filter looks at
     std::vector<double> alternating_;                  ///< per node: what it finds there, 0 elsewhere
     std::vector<double> cellLiquidRate_;               ///< as cellRate_, for the liquid
     std::vector<double> loadedArea_;                   ///< per load: of its points (see loadedAreas)

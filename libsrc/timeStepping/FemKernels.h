@@ -206,7 +206,7 @@ template <class Shape, int phases>
 void ExplicitStep<Shape, phases>::setFemViscosity(const State& state, double dt)
 {
     viscousStep_ = viscousReserve * dt;
-    for (std::size_t f = 0; f < femCells_.size(); ++f) {
+    const auto set = [&](int f) {
         const int c = femCells_[f].cell;
         const int material = femCells_[f].material;
         fem_.viscousTime[f] = 0;
@@ -219,7 +219,12 @@ void ExplicitStep<Shape, phases>::setFemViscosity(const State& state, double dt)
             fem_.viscousTime[f] = std::min(scene_.controls.femViscosity, most) * Shape::size(cells_[c]) *
                                   std::sqrt(inertiaScale_[c]) / skeleton;
         }
-    }
+    };
+    threads_.share(static_cast<int>(femCells_.size()), pointsPerPiece, [&](int, int begin, int end) {
+        for (int f = begin; f < end; ++f) {
+            set(f);
+        }
+    });
 }
 
 /// No cell rests that is nearer to a body, a free surface or loaded points than femDistance.
@@ -1102,11 +1107,12 @@ void ExplicitStep<Shape, phases>::keepMeanRates(const State& state)
             meanRate_[c][j] = passed * meanRate_[c][j] + (1 - passed) * strain[j] / femTime_;
         }
     };
-    for (const FemRun& run : femRuns_) {
-        for (int f = run.begin; scene_.materials[run.material].law->plastic() && f < run.end; ++f) {
+    const auto keepThose = [&](int, const FemRun& run, int begin, int end) {
+        for (int f = begin; scene_.materials[run.material].law->plastic() && f < end; ++f) {
             keep(run, f);
         }
-    }
+    };
+    inBlocks(std::span<const FemRun>(femRuns_), keepThose);
 }
 
 /// The points that rest catch up with their cells, which are cells of points again.

@@ -509,34 +509,32 @@ void ExplicitStep<Shape, phases>::findCheckerboardSigns()
             signs[k] = k == 0 || opposite ? 1 : -1;
             sum += signs[k];
         }
-        for (int k = 0; sum == 0 && k < 4; ++k) { // else the cells do not lie all around the node
-            checkerboardSign_[around[k]] = signs[k];
+        if (sum != 0) { // the cells do not lie all around the node
+            continue;
         }
+        FilterNode node{i, {}};
+        int positive = 0, negative = 2;
+        for (int k = 0; k < 4; ++k) {
+            checkerboardSign_[around[k]] = signs[k];
+            node.cells[signs[k] > 0 ? positive++ : negative++] = around[k] / corners;
+        }
+        checkerboardNodes_.push_back(node);
     }
+    alternating_.assign(nodes_.size(), 0);
 }
 
 /// Nodes at which the filter looks for a checkerboard: not beside a free surface.
 template <class Shape, int phases>
 void ExplicitStep<Shape, phases>::findFilterNodes()
 {
-    filterNodes_.clear();
-    alternating_.assign(nodes_.size(), 0);
-    for (const int i : activeNodes_) {
-        FilterNode node{i, {}};
-        int positive = 0, negative = 2;
-        for (int k = nodeCorners_.start[i]; k < nodeCorners_.start[i + 1]; ++k) {
-            const int corner = nodeCorners_.item[k];
-            const int c = corner / corners;
-            if (checkerboardSign_[corner] == 0 || !occupied_[c] || bySurface_[c]) {
-                positive = 0;
-                break;
-            }
-            node.cells[checkerboardSign_[corner] > 0 ? positive++ : negative++] = c;
-        }
-        if (positive > 0) {
-            filterNodes_.push_back(node);
-        }
+    for (const FilterNode& node : filterNodes_) {
+        alternating_[node.node] = 0;
     }
+    filterNodes_.clear();
+    std::ranges::copy_if(
+        checkerboardNodes_, std::back_inserter(filterNodes_), [this](const FilterNode& node) {
+            return std::ranges::all_of(node.cells, [this](int c) { return occupied_[c] && !bySurface_[c]; });
+        });
 }
 
 /// Cells of one pressure do not feel a checkerboard of it: no flow levels it. Its share, taken twice of a

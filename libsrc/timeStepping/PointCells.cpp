@@ -136,14 +136,19 @@ void PointCells::remove(int point, int cell)
 void PointCells::findRuns(const MaterialPoints& points, int resting)
 {
     runs_.clear();
-    awakeRuns_ = 0;
-    for (int p = 0; p < static_cast<int>(points.size()); ++p) {
-        if (runs_.empty() || p == resting || runs_.back().material != points.material[p]) {
-            runs_.push_back({points.material[p], p >= resting, p, p});
-            awakeRuns_ += p < resting ? 1 : 0;
+    const auto add = [&](int begin, int end, bool rests) {
+        while (begin < end) {
+            const int material = points.material[begin];
+            const auto other = std::find_if(points.material.begin() + begin, points.material.begin() + end,
+                                            [material](int of) { return of != material; });
+            const int last = static_cast<int>(other - points.material.begin());
+            runs_.push_back({material, rests, begin, last});
+            begin = last;
         }
-        runs_.back().end = p + 1;
-    }
+    };
+    add(0, resting, false);
+    awakeRuns_ = runs_.size();
+    add(resting, static_cast<int>(points.size()), true);
 }
 
 } // namespace caisson

@@ -1,6 +1,7 @@
 #include "scene/StabilityWatch.h"
 
 #include "Scenes.h"
+#include "dictionary/Text.h"
 
 #include <gtest/gtest.h>
 
@@ -73,7 +74,8 @@ TEST(StabilityWatch, namesTheQuantityThePointAndItsCell)
     expectSaid(saidOf(2, spoiling([](MaterialPoints& p) { p.volume[3] *= 0.5; })),
                {point, "has the porosity -"});
     expectSaid(saidOf(1, spoiling([](MaterialPoints& p) { p.vr[3] = 1e4; })),
-               {point, "moves at 1e+04 m/s, faster than waves of 186.4 m/s", "at step 25 the fastest was"});
+               {point, "moves at 1e+04 m/s, faster than waves of 186.4 m/s",
+                text("at step %d the fastest was", StabilityWatch::interval)});
 }
 
 TEST(StabilityWatch, looksBeforeEveryWriteAndElseEveryFewSteps)
