@@ -31,11 +31,17 @@ double MeshMotion::weight(double referenceZ) const { return moves_ ? weightOf(he
 
 void MeshMotion::place(BackgroundMesh& mesh, const std::vector<double>& referenceZ, double displacement) const
 {
+    place(mesh, referenceZ, displacement, 0, static_cast<int>(referenceZ.size()));
+}
+
+void MeshMotion::place(BackgroundMesh& mesh, const std::vector<double>& referenceZ, double displacement,
+                       int begin, int end) const
+{
     if (!moves_) {
         return;
     }
     const MeshMotionHeights heights = heights_; // a copy cannot change with the nodes
-    for (std::size_t i = 0; i < referenceZ.size(); ++i) {
+    for (int i = begin; i < end; ++i) {
         mesh.z[i] = referenceZ[i] + weightOf(heights, referenceZ[i]) * displacement;
     }
 }

@@ -43,6 +43,9 @@ public:
     /// Moves the nodes to where a displacement [m] of the moving zone from `referenceZ` (z of the nodes of
     /// constant/polyMesh) puts them: a function of the displacement alone, so that nothing drifts.
     void place(BackgroundMesh& mesh, const std::vector<double>& referenceZ, double displacement) const;
+    /// The same for the nodes from `begin` to before `end`.
+    void place(BackgroundMesh& mesh, const std::vector<double>& referenceZ, double displacement, int begin,
+               int end) const;
 
     /// Part of the moving zone's displacement that a node at `referenceZ` takes, 0 to 1.
     [[nodiscard]] double weight(double referenceZ) const;

@@ -603,7 +603,10 @@ void ExplicitStep<Shape, phases>::moveBodiesAndMesh(State& state, double dt)
     }
     if (scene_.movingBody >= 0 && state.bodies[scene_.movingBody].velocity != 0) {
         const RigidBody& body = state.bodies[scene_.movingBody];
-        scene_.motion.place(state.mesh, scene_.referenceZ, body.tipLevel - body.initialTipLevel);
+        const double displacement = body.tipLevel - body.initialTipLevel;
+        threads_.share(state.mesh.nodes(), nodesPerPiece, [&](int, int begin, int end) {
+            scene_.motion.place(state.mesh, scene_.referenceZ, displacement, begin, end);
+        });
         updateCells(state);
     }
 }

@@ -42,9 +42,13 @@ void PointCells::sort(MaterialPoints& points, Threads& threads, std::span<const 
         slot.room = slot.count;
     }
     makeRoom();
-    for (const auto& [c, at] : places_) {
-        std::iota(index_.begin() + slots_[c].start, index_.begin() + slots_[c].start + count(c), at);
-    }
+    threads.share(static_cast<int>(places_.size()), cellsPerPiece, [&](int, int from, int to) {
+        for (int i = from; i < to; ++i) {
+            const auto [c, at] = places_[i];
+            int* const own = index_.data() + slots_[c].start;
+            std::iota(own, own + count(c), at);
+        }
+    });
 }
 
 /// Every array at once, each by one thread.
