@@ -104,7 +104,12 @@ Outcome drive(Simulation& simulation, const Soil& soil, long steps, double coura
         }
         if (wrong.empty() && i % looksAtAll == 0) {
             if (const std::string demand = unmet(simulation, soil); !demand.empty()) {
-                return {Verdict::breaks, text("step %ld: ", i) + demand};
+                if (courant <= 1) {
+                    return {Verdict::breaks, text("step %ld: ", i) + demand};
+                }
+                wrong = demand; // which is to be expected, as long as somebody notices
+                wrongSince = i;
+                continue;
             }
             growth = std::max(growth, before > 0 ? kineticEnergy(simulation) / before : 0);
             if (demands.energyGrowth > 0 && growth > demands.energyGrowth) {

@@ -46,10 +46,10 @@ inline int firstCorner(const BackgroundMesh& mesh, int cell)
 }
 
 /// Fastest wave of soil and liquid without drag between them [m/s]: sqrt of the largest eigenvalue of the
-/// stiffness over the densities of the two phases. Drag slows it down to that of the undrained soil at most.
-inline double fastWave(const Material& material)
+/// stiffness over the densities of the two phases, at a porosity. Drag slows it down to that of the undrained
+/// soil at most.
+inline double fastWave(const Material& material, double n)
 {
-    const double n = material.porosity;
     const double storage = material.liquidBulkModulus / n;
     const double liquid = n * material.liquidDensity;
     const double solid = (1 - n) * material.solidDensity;
@@ -100,7 +100,7 @@ ExplicitStep<Shape, phases>::ExplicitStep(const Scene& scene, State& state)
         // Projection: the pressure follows, and the soil may leave its liquid behind.
         const double ofSolid = (1 - material.porosity) * material.solidDensity;
         const double skeleton = projects() ? ofSolid : material.inertialDensity();
-        waveSpeed_.push_back(twoPhase && !projects() ? kernels::fastWave(material)
+        waveSpeed_.push_back(twoPhase && !projects() ? kernels::fastWave(material, material.porosity)
                                                      : std::sqrt(material.law->pWaveModulus() / skeleton));
         skeletonSpeed_.push_back(std::sqrt(pWaveModulus_.back() / skeleton));
         drainedSpeed_.push_back(twoPhase ? std::sqrt(pWaveModulus_.back() / ofSolid) : skeletonSpeed_.back());

@@ -152,15 +152,32 @@ void ExplicitStep<Shape, phases>::setModeNodes()
     }
 }
 
+/// Of the materials as they were at the start, or of the soil that is compacted most now: the less its pores
+/// hold, the stiffer they make it.
 template <class Shape, int phases>
 double ExplicitStep<Shape, phases>::fastestWave(const State& state, int c) const
 {
-    if (waveSpeed_.size() == 1) {
+    const MaterialPoints& points = state.points;
+    const bool pores = twoPhase && !projects();
+    if (waveSpeed_.size() == 1 && !pores) {
         return waveSpeed_[0];
     }
     double speed = 0;
+    double least = 1; // porosity over that at the start
+    int densest = 0;
     for (const int* p = pointCells_.begin(c); p != pointCells_.end(c); ++p) {
-        speed = std::max(speed, waveSpeed_[state.points.material[*p]]);
+        const int material = points.material[*p];
+        speed = std::max(speed, waveSpeed_[material]);
+        if constexpr (twoPhase) {
+            const double ratio = porosity(points, *p) / scene_.materials[material].porosity;
+            densest = ratio < least ? material : densest;
+            least = std::min(least, ratio);
+        }
+    }
+    if (pores && least < 1) {
+        constexpr double none = 1e-3; // at which the watch has something to say
+        const Material& soil = scene_.materials[densest];
+        speed = std::max(speed, kernels::fastWave(soil, std::max(none, least * soil.porosity)));
     }
     return speed;
 }
