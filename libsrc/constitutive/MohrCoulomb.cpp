@@ -102,7 +102,8 @@ bool MohrCoulomb::updateChunk(const StressBatch& batch, const int begin, const i
             compliance * std::sqrt(taken12 * taken12 + taken23 * taken23 + taken13 * taken13);
         const double opened = (taken[0] + taken[1] + taken[2]) / (3 * bulk);
         plasticShearStrain[i] += yields ? sheared : 0;
-        opening[i] = yields & gapClosing & (result.region == ReturnRegion::apex) & (opened > 0) ? opened : 0;
+        opening[i] =
+            (yields & gapClosing & (result.region == ReturnRegion::apex) & (opened > 0)) ? opened : 0;
 
         // The return keeps the order of the stresses and the axes of the in-plane pair.
         const double newMajor = hoopIsLargest ? result.stress[1] : result.stress[0];

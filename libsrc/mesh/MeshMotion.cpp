@@ -22,7 +22,7 @@ double weightOf(const MeshMotionHeights& heights, double z)
     const double fall = (heights.top - z) / (heights.top - heights.movingTop);
     const double least = rise < fall ? rise : fall;
     const double weight = least < 1 ? least : 1;
-    return (z > heights.bottom) & (z < heights.top) ? weight : 0;
+    return ((z > heights.bottom) & (z < heights.top)) ? weight : 0;
 }
 
 } // namespace

@@ -259,7 +259,7 @@ void ExplicitStep<Shape, phases>::strainByFours(const int* cells, int count, dou
         }
         result.rate = rows[3][l][3];
         result.liquidRate = liquidRate[l];
-        const int* const nodes = &cellNodes_[cells[l] * corners];
+        const int* const nodes = &cellNodes_[static_cast<std::size_t>(cells[l]) * corners];
         const auto setModes = [&](double(&to)[4][4], const auto& of) {
             kernels::setModes<Shape>(to, {of(nodes[0]), of(nodes[1]), of(nodes[2]), of(nodes[3])});
         };
