@@ -414,6 +414,17 @@ TEST_P(Flow, theCriticalGradientTakesTheWeightOfTheSoil)
     EXPECT_LT(largest / critical, 5e-3);
 }
 
+/// Largest speed of soil and liquid [m/s].
+double fastestOfBothPhases(const MaterialPoints& points)
+{
+    double fastest = 0;
+    for (std::size_t p = 0; p < points.size(); ++p) {
+        fastest = std::max(
+            {fastest, std::hypot(points.vr[p], points.vz[p]), std::hypot(points.wr[p], points.wz[p])});
+    }
+    return fastest;
+}
+
 /// A column under water with its free surface inside cells, with the stress of its weight.
 Simulation columnUnderWater(double level)
 {
@@ -456,12 +467,7 @@ TEST_P(FreeSurfaces, aColumnUnderWaterStaysAtRest)
         for (int i = 0; i < 10000; ++i) {
             simulation.step->advance(simulation.state, dt);
         }
-        double fastest = 0;
-        const MaterialPoints& points = simulation.state.points;
-        for (std::size_t p = 0; p < points.size(); ++p) {
-            fastest = std::max(
-                {fastest, std::hypot(points.vr[p], points.vz[p]), std::hypot(points.wr[p], points.wz[p])});
-        }
+        const double fastest = fastestOfBothPhases(simulation.state.points);
         report("column under water after 1e4 steps: largest velocity [m/s]", fastest, 1e-8);
         EXPECT_LT(fastest, 1e-8) << "level " << level;
     }
@@ -522,10 +528,7 @@ TEST_P(FreeSurfaces, doNotPushSoilAtTheTopOfAWallBetweenThem)
     double fastest = 0;
     for (int i = 0; i < 100; ++i) {
         simulation.step->advance(simulation.state, dt);
-        for (std::size_t p = 0; p < points.size(); ++p) {
-            fastest = std::max(
-                {fastest, std::hypot(points.vr[p], points.vz[p]), std::hypot(points.wr[p], points.wz[p])});
-        }
+        fastest = std::max(fastest, fastestOfBothPhases(points));
     }
     report("two waters over a wall: largest velocity of the soil [m/s]", fastest, 1e-10);
     EXPECT_LT(fastest, 1e-10);
